@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The `[control]` part of a machine file, and the machine file as a whole.
+#pragma once
+
+#include <cusp/base/result.hpp>
+#include <cusp/base/toml_schema.hpp>
+#include <cusp/machine/machine_definition.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace cusp::post {
+
+/// How numbers are written. 840D finishing defaults (manual 05/2009 p50): linear 5, rotary 5, vectors 6 decimals.
+struct NumberFormat {
+    std::int64_t linear_decimals = 5;
+    std::int64_t rotary_decimals = 5;
+    std::int64_t vector_decimals = 6;
+    std::int64_t feed_decimals = 3;
+    std::int64_t speed_decimals = 0;
+};
+
+struct ControlDefinition {
+    enum class Kind { Sinumerik840D };
+    /// Which form of CYCLE832 the software takes (PM12 p1108): two numbers and a one up to 4.4, an orientation tolerance from 4.5.
+    enum class Cycle832 { None, UpTo44, From45 };
+
+    Kind kind = Kind::Sinumerik840D;
+    /// MD21104 $MC_ORI_IPO_WITH_G_CODE: false → ORIWKS/ORIMKS decide the orientation's interpolation, true → ORIVECT/ORIAXES.
+    bool md21104_ori_ipo_with_g_code = true;
+    Cycle832 cycle832 = Cycle832::From45;
+    double cycle832_tolerance_mm = 0.01;
+    double cycle832_orientation_tolerance_rad = 0.0;  ///< key `cycle832_orientation_tolerance_deg`
+    std::string start_codes = "G40 G17 G710 G94 G90 G60 G601 FNORM";
+    std::string work_offset = "G54";
+    std::int64_t block_number_step = 10;  ///< 0: no block numbers
+    std::string retract_axis = "Z";       ///< goes home alone, before all others
+    NumberFormat format;
+};
+
+/// One file, two rooms: `machine` belongs to kinematics, `control` to post.
+struct MachineFile {
+    machine::MachineDefinition machine;
+    ControlDefinition control;
+};
+
+[[nodiscard]] const base::Section<ControlDefinition>& controlSection();
+
+/// Reads and validates both parts; reports every problem at once, unknown keys included.
+[[nodiscard]] base::Result<MachineFile> readMachineFile(const std::string& path);
+[[nodiscard]] base::Result<MachineFile> parseMachineFile(std::string_view text, const std::string& file_name);
+
+/// Every default written out, as TOML that reads back to the same.
+[[nodiscard]] std::string toToml(const MachineFile& file);
+
+}  // namespace cusp::post
