@@ -16,10 +16,17 @@
 
 namespace cusp::machine {
 
+/// A direction of unit length. Reading normalises what the file says and refuses a zero vector, so nobody after the
+/// reader has to.
+struct Direction : std::array<double, 3> {};
+
+/// Positions of rotary axes by name, in rad; axes left out are at zero.
+struct RotaryPose : std::map<std::string, double> {};
+
 /// Directions follow ISO 841: the motion of the *tool relative to the workpiece* for a positive move, whichever of the
 /// two the axis really carries. So one product along the chain gives the pose, and a table's C turns the other way.
 struct LinearAxis {
-    std::array<double, 3> direction{0.0, 0.0, 1.0};  ///< machine frame, unit length after reading
+    Direction direction{{0.0, 0.0, 1.0}};  ///< machine frame
     double min_mm = 0.0;
     double max_mm = 0.0;
     double home_mm = 0.0;
@@ -30,8 +37,8 @@ struct LinearAxis {
 
 struct RotaryAxis {
     enum class Winding { Limited, Endless };
-    std::array<double, 3> direction{0.0, 0.0, 1.0};  ///< machine frame, all axes at zero; right-handed
-    std::array<double, 3> point_mm{0.0, 0.0, 0.0};   ///< a point on the axis, machine frame, all axes at zero
+    Direction direction{{0.0, 0.0, 1.0}};           ///< machine frame, all axes at zero; right-handed
+    std::array<double, 3> point_mm{0.0, 0.0, 0.0};  ///< a point on the axis, machine frame, all axes at zero
     Winding winding = Winding::Limited;
     std::optional<double> min_rad;  ///< given exactly when winding is Limited
     std::optional<double> max_rad;
@@ -42,7 +49,7 @@ struct RotaryAxis {
 };
 
 struct Spindle {
-    std::array<double, 3> axis{0.0, 0.0, 1.0};            ///< from the tip to the spindle, all axes at zero
+    Direction axis{{0.0, 0.0, 1.0}};                      ///< from the tip to the spindle, all axes at zero
     std::array<double, 3> gauge_point_mm{0.0, 0.0, 0.0};  ///< where the tool's gauge length starts, all axes at zero
     double max_speed_rpm = 0.0;
 };
@@ -50,9 +57,9 @@ struct Spindle {
 /// A pose known from outside cusp (a real program, a manual): FK∘IK cannot see a wrong sign, this can.
 struct Anchor {
     std::string source;
-    std::map<std::string, double> rotary_rad;   ///< key `rotary_deg`; axes left out are at zero
-    std::array<double, 3> tool_axis{0, 0, 1};   ///< in the workpiece frame, unit length after reading
-    double tolerance_rad = 0.0;                 ///< as well as the outside source is known
+    RotaryPose rotary_rad;                     ///< key `rotary_deg`
+    Direction tool_axis{{0.0, 0.0, 1.0}};      ///< in the workpiece frame
+    double tolerance_rad = 0.0;                ///< as well as the outside source is known
 };
 
 /// Says where a value comes from; every value no source speaks of is assumed, and `machine check` says so.
@@ -78,6 +85,10 @@ struct MachineDefinition {
     /// Whether the axis moves the workpiece (stands before "base" in the chain).
     [[nodiscard]] bool carriesWorkpiece(const std::string& axis) const;
 };
+
+/// The dotted keys whose values no `[[source]]` speaks of: they are assumed. A table none of whose keys is covered is
+/// named once ("rotary.A"), else its uncovered keys one by one ("rotary.A.max_jerk_deg_per_s3").
+[[nodiscard]] std::vector<std::string> unknownProvenance(const MachineDefinition& definition);
 
 /// The field table of the machine file's part that describes the machine (root keys other than `control`).
 [[nodiscard]] const base::Section<MachineDefinition>& machineSection();
