@@ -31,8 +31,9 @@ class Section {
 public:
     explicit Section(std::string doc) : doc_(std::move(doc)) {}
 
-    /// A plain value: double, std::int64_t, bool, std::string, std::array<double, 3>, std::vector of those, or
-    /// std::optional of those (an absent key leaves it empty).
+    /// A plain value: double, std::int64_t, bool, std::string, std::array<double, n>; std::vector of those;
+    /// std::map<std::string, …> of those (named numbers: `rotary_deg = {A = 10}`); std::optional of any of these (an
+    /// absent key leaves it as it is by default, which should be empty: TOML cannot write "nothing").
     template <class V>
     Section& field(std::string key, V T::*member, std::string doc, FieldRules rules = {}) {
         FieldInfo info = describeField<V>(std::move(key), std::move(doc), rules);
