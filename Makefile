@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: The cusp authors
+# SPDX-License-Identifier: Apache-2.0
+# A thin wrapper: each target is a few lines one can as well type. The presets are in CMakePresets.json.
+.DEFAULT_GOAL := help
+.PHONY: help deps build demo test test-parsers test-fuzz bench fuzz format lint docs clean
+SHELL := /bin/bash
+
+JOBS := $(shell nproc)
+# Rooms whose tests also run under the sanitizers in `make test`: those that read what strangers wrote.
+PARSER_ROOMS := base toolpath kinematics post
+# Seconds `make fuzz` spends on each fuzzer.
+FUZZ_SECONDS ?= 300
+
+help: ## List the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+deps: ## Install the Debian packages that are absent (root, or sudo without a password)
+	scripts/deps.sh build test
+
+build: ## Build everything (release)
+	cmake --preset release
+	cmake --build --preset release -j$(JOBS)
+
+demo: ## Install what is absent, build, and turn an example CL file into a proven 840D program (out/demo)
+	scripts/deps.sh build
+	cmake --preset release
+	cmake --build --preset release --target cusp_cli -j$(JOBS)
+	scripts/demo.sh build/release/bin/cusp out/demo
+
+test: ## Install what is absent, then all tests: parsers under sanitizers, fuzz smoke, and the whole suite last
+	$(MAKE) --no-print-directory deps
+	$(MAKE) --no-print-directory test-parsers
+	$(MAKE) --no-print-directory test-fuzz
+	$(MAKE) --no-print-directory build
+	ctest --preset release -j$(JOBS)
+
+test-parsers: ## The tests of the parsers under the address and undefined-behaviour sanitizers
+	cmake --preset asan-ubsan
+	cmake --build --preset asan-ubsan --target $(PARSER_ROOMS:%=tests_%) -j$(JOBS)
+	ctest --preset asan-ubsan -L '^($(subst $(eval ) ,|,$(PARSER_ROOMS)))$$' -j$(JOBS)
+
+test-fuzz: ## A short run of every fuzzer, from fixed seeds
+	@if command -v clang++-19 >/dev/null; then set -ex; \
+	  cmake --preset fuzz; \
+	  cmake --build --preset fuzz -j$(JOBS); \
+	  ctest --preset fuzz -j$(JOBS); \
+	else echo "skipped: clang++-19 is not installed (make deps)"; fi
+
+bench: ## Build and run the benchmarks
+	scripts/deps.sh build bench
+	cmake --preset bench
+	cmake --build --preset bench -j$(JOBS)
+	cmake --build --preset bench --target run_benchmarks
+
+fuzz: ## Run every fuzzer for FUZZ_SECONDS each; findings stay in build/fuzz
+	scripts/deps.sh build test
+	cmake --preset fuzz -DCUSP_FUZZ_RUNS=-1 -DCUSP_FUZZ_SECONDS=$(FUZZ_SECONDS)
+	cmake --build --preset fuzz -j$(JOBS)
+	ctest --preset fuzz --timeout 0 -V
+	cmake --preset fuzz -UCUSP_FUZZ_RUNS -UCUSP_FUZZ_SECONDS
+
+format: ## Format every tracked source file in place
+	scripts/deps.sh lint
+	scripts/format.sh
+
+lint: ## clang-tidy over every source file; warnings are errors
+	scripts/deps.sh build lint
+	scripts/lint.sh
+
+docs: ## Reference of the public headers, in build/docs
+	scripts/deps.sh docs
+	mkdir -p build/docs
+	doxygen docs/Doxyfile
+
+clean: ## Remove what was built (build/ and out/)
+	rm -rf build out
