@@ -12,24 +12,29 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cusp::toolpath {
 
 /// Who wrote the file. The dialect decides what plain APT leaves open.
-enum class Dialect : std::uint8_t { Nx, Catia };
+/// `Apt` is plain APT without a system's own statements.
+enum class Dialect : std::uint8_t { Nx, Catia, Apt };
 
 [[nodiscard]] const char* dialectName(Dialect dialect);
 
 struct ClReaderOptions {
     /// Forces a dialect; detected from the first statements when absent.
     std::optional<Dialect> dialect;
-    /// Unit of lengths when the file does not say (no UNITS, and no feed in MMPM or IPM before the first motion).
+    /// Unit of lengths when the file does not state it (no UNITS before the first motion). Without this, the first feed
+    /// word (MMPM, MMPR, IPM, IPR) in the first megabyte decides, and if there is none the file is refused.
     std::optional<double> mm_per_unit;
     /// A statement the reader does not know is an error instead of a warning. A statement that moves the tool and is not
     /// understood is an error either way.
     bool strict = false;
     /// A longer line ends the read with `cl.line-too-long`: a binary file must not be taken for one huge statement.
     std::size_t max_statement_bytes = 64 * 1024;
+    /// The stream is read in blocks of this size. The records do not depend on it.
+    std::size_t block_bytes = 256 * 1024;
 };
 
 /// A pull reader: `next` until it answers false, then ask `report`.

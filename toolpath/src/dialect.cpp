@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The table of dialects.
+#include "dialect.hpp"
+
+#include <array>
+
+namespace cusp::toolpath {
+
+namespace detail {
+namespace {
+
+using Words = std::array<std::string_view, 3>;
+constexpr Words nx_words{"TOOL PATH", "TLDATA", "MSYS"};
+constexpr std::array<std::string_view, 2> catia_comments{"*CATIA0", "CATIA APT"};
+
+constexpr std::array<DialectTraits, 3> dialects{{
+    {Dialect::Nx, "NX", AxisRule::Modal, ToolNameRule::OperationHeader, false, nx_words, {}},
+    {Dialect::Catia, "CATIA", AxisRule::Declared, ToolNameRule::ToolPrint, true, {}, catia_comments},
+    {Dialect::Apt, "APT", AxisRule::Declared, ToolNameRule::ToolPrint, false, {}, {}},
+}};
+
+}  // namespace
+
+std::span<const DialectTraits> allDialects() { return dialects; }
+
+const DialectTraits& traitsOf(Dialect dialect) {
+    for (const DialectTraits& traits : dialects) {
+        if (traits.dialect == dialect) {
+            return traits;
+        }
+    }
+    return dialects.back();
+}
+
+}  // namespace detail
+
+const char* dialectName(Dialect dialect) { return detail::traitsOf(dialect).name; }
+
+}  // namespace cusp::toolpath

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Word → what is done with it: the one place that says which statements the reader knows.
+#pragma once
+
+#include "reader_context.hpp"
+
+#include <string_view>
+
+namespace cusp::toolpath::detail {
+
+/// `word` is the statement's leading word in upper case, `body` the text behind its slash.
+using Handler = void (*)(ReaderContext& context, std::string_view word, std::string_view body);
+
+struct StatementEntry {
+    std::string_view word;
+    Handler handler;
+    DialectSet dialects = every_dialect;
+};
+
+/// Null when the dialect has no such statement.
+[[nodiscard]] const StatementEntry* findStatement(std::string_view word, Dialect dialect);
+
+/// For words that move the tool, or change where it goes, in ways not read so far: always an error.
+void unsupportedMotion(ReaderContext& context, std::string_view word, std::string_view body);
+/// A statement that no table entry knows.
+void unknownStatement(ReaderContext& context, const StatementHead& head, std::string_view text);
+
+// motion_statements.cpp
+/// The body of a GOTO of 3 or 6 numbers, in one pass without fields. False when it is anything else, with nothing changed
+/// or reported: `handleGoto` then says what is wrong.
+[[nodiscard]] bool readPlainGoto(ReaderContext& context, std::string_view body, LinearMotion& motion);
+void handleGoto(ReaderContext& context, std::string_view word, std::string_view body);
+void handleRapid(ReaderContext& context, std::string_view word, std::string_view body);
+void handleFrom(ReaderContext& context, std::string_view word, std::string_view body);
+void handleTlaxis(ReaderContext& context, std::string_view word, std::string_view body);
+void handleMultax(ReaderContext& context, std::string_view word, std::string_view body);
+/// CUTCOM, CYCLE, TRANS…: OFF is understood, anything else is not.
+void handleOnlyOff(ReaderContext& context, std::string_view word, std::string_view body);
+
+// process_statements.cpp
+void handleFedrat(ReaderContext& context, std::string_view word, std::string_view body);
+void handleSpindl(ReaderContext& context, std::string_view word, std::string_view body);
+void handleCoolnt(ReaderContext& context, std::string_view word, std::string_view body);
+void handleDelay(ReaderContext& context, std::string_view word, std::string_view body);
+void handleStop(ReaderContext& context, std::string_view word, std::string_view body);
+
+// tool_statements.cpp
+void handleCutter(ReaderContext& context, std::string_view word, std::string_view body);
+void handleTldata(ReaderContext& context, std::string_view word, std::string_view body);
+void handleToolPath(ReaderContext& context, std::string_view word, std::string_view body);
+void handleToolno(ReaderContext& context, std::string_view word, std::string_view body);
+void handleTprint(ReaderContext& context, std::string_view word, std::string_view body);
+void handleLoad(ReaderContext& context, std::string_view word, std::string_view body);
+void handleTurret(ReaderContext& context, std::string_view word, std::string_view body);
+
+// frame_statements.cpp
+void handleUnits(ReaderContext& context, std::string_view word, std::string_view body);
+void handleMsys(ReaderContext& context, std::string_view word, std::string_view body);
+/// Comments of dialects whose comments carry records.
+void handleComment(ReaderContext& context, std::string_view comment);
+/// To be called when anything but a comment follows: a frame that is cut short is reported.
+void finishFrame(ReaderContext& context);
+
+// text_statements.cpp
+void handleRemark(ReaderContext& context, std::string_view word, std::string_view body);
+void handleEnd(ReaderContext& context, std::string_view word, std::string_view body);
+void handleEndOfPath(ReaderContext& context, std::string_view word, std::string_view body);
+/// Display, tolerances, tape: nothing for the machine.
+void handleMeaningless(ReaderContext& context, std::string_view word, std::string_view body);
+
+}  // namespace cusp::toolpath::detail

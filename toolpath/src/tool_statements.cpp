@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// CUTTER, TLDATA, TOOL PATH, TOOLNO, TPRINT, LOADTL, LOAD/TOOL: which tool, and its shape.
+#include "statement_table.hpp"
+
+#include <cusp/base/units.hpp>
+
+#include <fmt/format.h>
+
+namespace cusp::toolpath::detail {
+namespace {
+
+constexpr double right_angle_deg = 90.0;
+
+void refuseTurning(ReaderContext& context, std::string_view statement) {
+    context.stop("cl.turning", fmt::format("this is a turning program ({}); cusp mills", statement));
+}
+
+/// The corner circle that touches the tip's cone (angle a from the horizontal) and the flank (angle b from the axis),
+/// where both would meet at d/2: at distance r from both lines.
+void placeCornerCircle(geometry::Cutter& cutter) {
+    const double a = cutter.point_angle_rad;
+    const double b = cutter.taper_angle_rad;
+    const double r = cutter.corner_radius_mm;
+    const double edge_radius = cutter.diameter_mm / 2.0;
+    const double edge_height = edge_radius * std::tan(a);
+    // −e·sin a + f·cos a = r  and  −(e − R)·cos b + (f − h)·sin b = r
+    const double determinant = std::cos(a) * std::cos(b) - std::sin(a) * std::sin(b);
+    const double right = r - edge_radius * std::cos(b) + edge_height * std::sin(b);
+    cutter.corner_e_mm = (r * std::sin(b) - right * std::cos(a)) / determinant;
+    cutter.corner_f_mm = (r * std::cos(b) - right * std::sin(a)) / determinant;
+}
+
+bool isPossible(const geometry::Cutter& cutter) {
+    const double limit = base::radFromDeg(right_angle_deg);
+    return cutter.diameter_mm > 0.0 && cutter.corner_radius_mm >= 0.0 && cutter.cutting_height_mm >= 0.0 &&
+           std::abs(cutter.point_angle_rad) < limit && std::abs(cutter.taper_angle_rad) < limit;
+}
+
+void takeCutter(ReaderContext& context, std::string_view word, std::string_view body, const geometry::Cutter& cutter) {
+    if (!isPossible(cutter)) {
+        context.error("cl.cutter", fmt::format("{}/{} is not a possible cutter", word, trimmed(body)));
+        return;
+    }
+    context.tool.cutter = cutter;
+    context.tool.fresh = true;
+}
+
+/// "17.0" and "17" are tool 17; anything else is not a number of a tool.
+std::optional<std::int64_t> toolNumber(const Field& field) {
+    constexpr double largest = 1e9;
+    if (!field.is_number || field.number < 0.0 || field.number > largest || field.number != std::floor(field.number)) {
+        return std::nullopt;
+    }
+    return static_cast<std::int64_t>(field.number);
+}
+
+}  // namespace
+
+void handleCutter(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    constexpr std::size_t most = 7;
+    if (fields.empty() || fields.size() > most) {
+        context.error("cl.syntax", fmt::format("{} has {} values; 1 to 7 are understood", word, fields.size()));
+        return;
+    }
+    std::array<double, most> values{};
+    if (!takeNumbers(context, word, fields, 0, fields.size(), values.data())) {
+        return;
+    }
+    geometry::Cutter cutter;
+    cutter.diameter_mm = values[0] * context.mm_per_unit;
+    cutter.corner_radius_mm = values[1] * context.mm_per_unit;
+    cutter.corner_e_mm =
+        fields.size() > 2 ? values[2] * context.mm_per_unit : cutter.diameter_mm / 2.0 - cutter.corner_radius_mm;
+    cutter.corner_f_mm = fields.size() > 3 ? values[3] * context.mm_per_unit : cutter.corner_radius_mm;
+    cutter.point_angle_rad = base::radFromDeg(values[4]);
+    cutter.taper_angle_rad = base::radFromDeg(values[5]);
+    cutter.cutting_height_mm = values[6] * context.mm_per_unit;
+    takeCutter(context, word, body, cutter);
+}
+
+void handleTldata(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    if (fields.contains("TURN")) {
+        refuseTurning(context, "TLDATA/TURN");
+        return;
+    }
+    // MILL: diameter, corner radius, height, taper angle, tip angle.
+    constexpr std::size_t mill_values = 5;
+    if (fields.size() != 1 + mill_values || !fields[0].is("MILL")) {
+        context.warning("cl.tool-shape", fmt::format("{}/{}: only MILL with 5 values is understood; the tool is called "
+                                                     "without its shape",
+                                                     word, trimmed(body)));
+        context.tool.cutter.reset();
+        return;
+    }
+    std::array<double, mill_values> values{};
+    if (!takeNumbers(context, word, fields, 1, mill_values, values.data())) {
+        return;
+    }
+    geometry::Cutter cutter;
+    cutter.diameter_mm = values[0] * context.mm_per_unit;
+    cutter.corner_radius_mm = values[1] * context.mm_per_unit;
+    cutter.cutting_height_mm = values[2] * context.mm_per_unit;
+    cutter.taper_angle_rad = base::radFromDeg(values[3]);
+    cutter.point_angle_rad = base::radFromDeg(values[4]);
+    if (isPossible(cutter)) {
+        placeCornerCircle(cutter);
+    }
+    takeCutter(context, word, body, cutter);
+    context.tool.fresh = false;  // TOOL PATH owes the call, not TLDATA
+}
+
+void handleToolPath(ReaderContext& context, std::string_view word, std::string_view body) {
+    constexpr std::string_view separator = ",TOOL,";
+    body = trimmed(body);
+    const std::size_t at = body.rfind(separator);
+    if (at == std::string_view::npos) {
+        context.error("cl.syntax", fmt::format("{}/operation,TOOL,name is expected", word));
+        return;
+    }
+    context.path_ended = false;
+    context.emit(OperationStart{std::string(trimmed(body.substr(0, at)))});
+    const std::string_view name = trimmed(body.substr(at + separator.size()));
+    if (name != context.tool.name) {
+        context.tool = ToolDescription{};
+        context.tool.name = name;
+        context.tool.call_owed = true;
+    }
+}
+
+void handleToolno(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    if (fields.contains("TURN")) {
+        refuseTurning(context, fmt::format("TOOLNO/{},TURN", fields[0].text));
+        return;
+    }
+    const std::optional<std::int64_t> number = fields.empty() ? std::nullopt : toolNumber(fields[0]);
+    if (!number) {
+        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected first", word, trimmed(body)));
+        return;
+    }
+    context.tool.number = number;
+    context.tool.fresh = true;
+}
+
+void handleTprint(ReaderContext& context, std::string_view /*word*/, std::string_view body) {
+    // Name, comment, assembly: the first is the tool.
+    context.tool.name = trimmed(body.substr(0, body.find(',')));
+    context.tool.fresh = true;
+}
+
+void handleLoad(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    const bool load_tool = word == "LOAD";
+    const std::size_t at = load_tool ? 1 : 0;
+    if (load_tool && (fields.empty() || !fields[0].is("TOOL"))) {
+        context.error("cl.tool", fmt::format("{}/{} is not understood; LOAD/TOOL,number is", word, trimmed(body)));
+        return;
+    }
+    std::optional<std::int64_t> number = fields.size() > at ? toolNumber(fields[at]) : std::nullopt;
+    if (!number) {
+        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected", word, trimmed(body)));
+        return;
+    }
+    if (context.dialect->tool_name_rule == ToolNameRule::OperationHeader) {
+        if (*number == 0) {
+            number.reset();  // NX writes 0 for a tool that was given no number; the name identifies it
+        }
+    } else if (!context.tool.fresh && number == context.loaded_number) {
+        return;  // CATIA repeats LOADTL at every operation of the tool in the spindle
+    } else if (context.tool.number && context.tool.number != number) {
+        // What TOOLNO, TPRINT and CUTTER told was about another tool.
+        context.warning("cl.tool", fmt::format("{} calls tool {}, but TOOLNO described tool {}: the tool is called without "
+                                               "name and shape",
+                                               word, *number, *context.tool.number));
+        context.tool = ToolDescription{};
+    }
+    context.tool.number = number;
+    context.tool.call_owed = true;
+    context.callOwedTool();
+}
+
+void handleTurret(ReaderContext& context, std::string_view word, std::string_view body) {
+    refuseTurning(context, fmt::format("{}/{}", word, Fields(body).empty() ? "" : Fields(body)[0].text));
+}
+
+}  // namespace cusp::toolpath::detail
