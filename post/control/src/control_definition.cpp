@@ -12,6 +12,15 @@
 
 namespace cusp::post {
 
+bool isSettableFrame(std::string_view text) {
+    if (text.size() < 2 || text.front() != 'G' || text[1] == '0') return false;
+    int number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data() + 1, end, number);
+    if (problem != std::errc{} || stop != end) return false;
+    return (number >= 54 && number <= 57) || (number >= 505 && number <= 599) || number == 500;
+}
+
 namespace {
 
 using base::Diagnostics;
@@ -36,16 +45,6 @@ Section<NumberFormat> formatSection() {
         .field("feed_decimals", &NumberFormat::feed_decimals, "Decimals of F.", decimals())
         .field("speed_decimals", &NumberFormat::speed_decimals, "Decimals of S.", decimals());
     return section;
-}
-
-/// G54–G57, G505–G599 and G500: what an 840D takes as a settable frame.
-bool isSettableFrame(std::string_view text) {
-    if (text.size() < 2 || text.front() != 'G' || text[1] == '0') return false;
-    int number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, problem] = std::from_chars(text.data() + 1, end, number);
-    if (problem != std::errc{} || stop != end) return false;
-    return (number >= 54 && number <= 57) || (number >= 505 && number <= 599) || number == 500;
 }
 
 void checkWorkOffset(const ControlDefinition& control, const TomlNode& table, Diagnostics& report) {

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace cusp::post {
 
@@ -46,6 +47,9 @@ struct MachineFile {
 };
 
 [[nodiscard]] const base::Section<ControlDefinition>& controlSection();
+
+/// G54 to G57, G505 to G599 and G500: what an 840D takes as a settable frame.
+[[nodiscard]] bool isSettableFrame(std::string_view text);
 
 /// Reads and validates both parts; reports every problem at once, unknown keys included.
 [[nodiscard]] base::Result<MachineFile> readMachineFile(const std::string& path);
