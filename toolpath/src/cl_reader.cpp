@@ -100,8 +100,8 @@ bool ClReader::State::step(ClRecord& record) {
     }
     // Nearly every statement of a long file is a GOTO: it passes without a look at the table.
     constexpr std::string_view go = "GOTO";
-    if (context.motion_seen && !context.program_ended && context.tool.isSettled() &&
-        context.frame_rows.expected == 0 && statement.text.substr(0, go.size()) == go) {
+    if (context.motion_seen && !context.program_ended && context.tool.isSettled() && context.frame_rows.expected == 0 &&
+        statement.text.substr(0, go.size()) == go) {
         std::string_view body = statement.text.substr(go.size());
         while (!body.empty() && isBlank(body.front())) {
             body.remove_prefix(1);
@@ -138,8 +138,8 @@ void ClReader::State::dispatch(const Statement& statement) {
     if (entry == nullptr) {
         unknownStatement(context, head, statement.text);
     } else if (!head.isPlain() && entry->handler != unsupportedMotion) {
-        context.error("cl.syntax", fmt::format("{}: a slash or the end of the statement is expected behind the word",
-                                               head.word()));
+        context.error("cl.syntax",
+                      fmt::format("{}: a slash or the end of the statement is expected behind the word", head.word()));
     } else {
         entry->handler(context, head.word(), head.body());
     }
@@ -149,9 +149,11 @@ void ClReader::State::dispatch(const Statement& statement) {
 void ClReader::State::afterEnd(const StatementHead& head, std::string_view text) {
     const StatementEntry* const entry = findStatement(head.word(), context.dialect->dialect);
     if (entry == nullptr || !head.isPlain()) {
-        context.warning("cl.after-end", fmt::format("text behind the end of the program is not read: '{}'", text.substr(0, 40)));
+        context.warning("cl.after-end",
+                        fmt::format("text behind the end of the program is not read: '{}'", text.substr(0, 40)));
         finish();
-    } else if (entry->handler != handleEnd && entry->handler != handleMeaningless && entry->handler != handleEndOfPath) {
+    } else if (entry->handler != handleEnd && entry->handler != handleMeaningless &&
+               entry->handler != handleEndOfPath) {
         context.error("cl.after-end", fmt::format("{} behind the end of the program is not read", head.word()));
         finish();
     }
@@ -161,8 +163,9 @@ void ClReader::State::endOfInput(StatementSplitter::Status status) {
     using Status = StatementSplitter::Status;
     switch (status) {
         case Status::TooLong:
-            context.stop("cl.line-too-long", fmt::format("a statement of more than {} bytes; this does not look like a CL file",
-                                                         context.options.max_statement_bytes));
+            context.stop("cl.line-too-long",
+                         fmt::format("a statement of more than {} bytes; this does not look like a CL file",
+                                     context.options.max_statement_bytes));
             break;
         case Status::TooMany: context.stop("cl.too-many-lines", "more than 4294967295 lines"); break;
         case Status::Binary: context.stop("cl.binary", "this is not a text file: it contains NUL bytes"); break;

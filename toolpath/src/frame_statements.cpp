@@ -79,12 +79,13 @@ void handleUnits(ReaderContext& context, std::string_view word, std::string_view
     if (context.unit_source == UnitSource::Unknown) {
         context.requireUnit();  // too late for the points before, and too far behind for the look-ahead
     } else if (mmPerUnitOf(*unit) != context.mm_per_unit) {
-        context.error("cl.unit-contradiction",
-                      fmt::format("{}/{}, but the file was read in {} up to here: a change of unit inside a file is not read",
-                                  word, fields[0].text, unitName(context.mm_per_unit)));
+        context.error(
+            "cl.unit-contradiction",
+            fmt::format("{}/{}, but the file was read in {} up to here: a change of unit inside a file is not read",
+                        word, fields[0].text, unitName(context.mm_per_unit)));
     } else if (context.options.mm_per_unit && *context.options.mm_per_unit != mmPerUnitOf(*unit)) {
-        context.warning("cl.unit-option", fmt::format("the file says {}/{}; the unit given for it is not used", word,
-                                                      fields[0].text));
+        context.warning("cl.unit-option",
+                        fmt::format("the file says {}/{}; the unit given for it is not used", word, fields[0].text));
     }
 }
 

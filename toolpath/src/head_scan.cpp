@@ -85,8 +85,7 @@ public:
 private:
     void takeUnit(std::string_view body) {
         const Fields fields(body);
-        const std::optional<LengthUnit> unit =
-            fields.empty() ? std::nullopt : lengthUnitFromWord(fields[0].text);
+        const std::optional<LengthUnit> unit = fields.empty() ? std::nullopt : lengthUnitFromWord(fields[0].text);
         if (!motion_seen_ && !findings_.stated) {
             findings_.stated = unit;
         } else if (!findings_.implied) {

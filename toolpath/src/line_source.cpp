@@ -9,7 +9,9 @@
 namespace cusp::toolpath::detail {
 
 LineSource::LineSource(std::istream& in, std::size_t block_bytes, std::size_t max_line_bytes)
-    : in_(&in), buffer_(std::max<std::size_t>(block_bytes, 1)), block_bytes_(std::max<std::size_t>(block_bytes, 1)),
+    : in_(&in),
+      buffer_(std::max<std::size_t>(block_bytes, 1)),
+      block_bytes_(std::max<std::size_t>(block_bytes, 1)),
       max_line_bytes_(max_line_bytes) {}
 
 bool LineSource::fill() {

@@ -49,9 +49,10 @@ std::optional<geometry::Vector3> impliedAxis(ReaderContext& context) {
     // something that is not known here.
     constexpr double same_axis = 1e-6;
     if ((context.axis - context.declared_axis).norm() > same_axis) {
-        context.error("cl.axis",
-                      "GOTO has 3 values, but the GOTO before it had a tool axis other than TLAXIS and MULTAX is not on: "
-                      "which axis holds here is not clear");
+        context.error(
+            "cl.axis",
+            "GOTO has 3 values, but the GOTO before it had a tool axis other than TLAXIS and MULTAX is not on: "
+            "which axis holds here is not clear");
         return std::nullopt;
     }
     return context.declared_axis;
@@ -90,8 +91,9 @@ bool readPlainGoto(ReaderContext& context, std::string_view body, LinearMotion& 
 void handleGoto(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
     if (fields.size() != 3 && fields.size() != 6) {
-        context.error("cl.syntax", fmt::format("{} has {}{} values; 3 (point) or 6 (point and tool axis) are understood", word,
-                                               fields.size(), fields.truncated() ? " or more" : ""));
+        context.error("cl.syntax",
+                      fmt::format("{} has {}{} values; 3 (point) or 6 (point and tool axis) are understood", word,
+                                  fields.size(), fields.truncated() ? " or more" : ""));
         return;
     }
     std::array<double, 6> values{};
@@ -111,7 +113,8 @@ void handleGoto(ReaderContext& context, std::string_view word, std::string_view 
 
 void handleRapid(ReaderContext& context, std::string_view word, std::string_view body) {
     if (const Fields fields(body); !fields.empty()) {
-        context.error("cl.syntax", fmt::format("{} with values is not understood; RAPID alone makes the next GOTO rapid", word));
+        context.error("cl.syntax",
+                      fmt::format("{} with values is not understood; RAPID alone makes the next GOTO rapid", word));
         return;
     }
     context.rapid = true;

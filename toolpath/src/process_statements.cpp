@@ -18,10 +18,11 @@ void checkImpliedUnit(ReaderContext& context, std::string_view feed_word, Length
         return;
     }
     context.unit_reported = true;
-    context.error("cl.unit-contradiction",
-                  fmt::format("FEDRAT in {}, but the first feed of the file made its unit {}: the unit of the points is "
-                              "not clear; say which with --unit mm or --unit inch",
-                              feed_word, context.mm_per_unit == 1.0 ? "mm" : "inch"));
+    context.error(
+        "cl.unit-contradiction",
+        fmt::format("FEDRAT in {}, but the first feed of the file made its unit {}: the unit of the points is "
+                    "not clear; say which with --units mm or --units inch",
+                    feed_word, context.mm_per_unit == 1.0 ? "mm" : "inch"));
 }
 
 struct FeedUnit {
@@ -65,7 +66,8 @@ void handleFedrat(ReaderContext& context, std::string_view word, std::string_vie
     }
     if (context.rapid) {
         context.rapid = false;
-        context.warning("cl.rapid-cancelled", "FEDRAT follows RAPID before any GOTO: the next move is made at this feed");
+        context.warning("cl.rapid-cancelled",
+                        "FEDRAT follows RAPID before any GOTO: the next move is made at this feed");
     }
     const double feed = *value * unit.mm_per_unit;
     context.callOwedTool();

@@ -12,9 +12,10 @@ void ReaderContext::requireUnit() {
         return;
     }
     unit_reported = true;
-    error("cl.unit-unknown",
-          "the file does not say whether it is in mm or inch: no UNITS statement, and no feed in MMPM, MMPR, IPM or IPR; "
-          "say which with --unit mm or --unit inch");
+    error(
+        "cl.unit-unknown",
+        "the file does not say whether it is in mm or inch: no UNITS statement, and no feed in MMPM, MMPR, IPM or IPR; "
+        "say which with --units mm or --units inch");
 }
 
 void ReaderContext::callOwedTool() {

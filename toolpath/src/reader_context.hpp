@@ -58,9 +58,9 @@ struct ReaderContext {
     bool unit_reported = false;
     bool program_begun = false;  ///< a known statement was read
     bool preamble_noted = false;
-    bool path_ended = false;    ///< behind END-OF-PATH: free text may follow
-    bool program_ended = false; ///< behind FINI or END
-    bool stopped = false;       ///< a problem ended the read
+    bool path_ended = false;     ///< behind END-OF-PATH: free text may follow
+    bool program_ended = false;  ///< behind FINI or END
+    bool stopped = false;        ///< a problem ended the read
     std::optional<double> spindle_rpm;
     SpindleCommand::Turn last_turn = SpindleCommand::Turn::Clockwise;
     ToolDescription tool;
@@ -93,6 +93,7 @@ struct ReaderContext {
                                std::size_t count, double* out);
 
 /// A unit vector from three numbers printed with a few decimals; reports `cl.axis` when the length is not 1 within 1e-3.
-[[nodiscard]] std::optional<geometry::Vector3> unitAxis(ReaderContext& context, std::string_view word, const double* ijk);
+[[nodiscard]] std::optional<geometry::Vector3> unitAxis(ReaderContext& context, std::string_view word,
+                                                        const double* ijk);
 
 }  // namespace cusp::toolpath::detail

@@ -17,7 +17,8 @@ bool equalsWord(std::string_view text, std::string_view word) {
 }
 
 std::size_t freeTextWordLength(std::string_view text) {
-    for (const std::string_view word : {std::string_view("PARTNO"), std::string_view("PPRINT"), std::string_view("INSERT")}) {
+    for (const std::string_view word :
+         {std::string_view("PARTNO"), std::string_view("PPRINT"), std::string_view("INSERT")}) {
         if (startsWithWord(text, word) &&
             (text.size() == word.size() || isBlank(text[word.size()]) || text[word.size()] == '/')) {
             return word.size();

@@ -14,8 +14,8 @@ namespace cusp::toolpath::detail {
 
 /// One statement. The views hold until the next one is read.
 struct Statement {
-    std::string_view text;  ///< without surrounding blanks, trailing comment and continuation marks
-    std::uint32_t line = 0; ///< where it begins
+    std::string_view text;   ///< without surrounding blanks, trailing comment and continuation marks
+    std::uint32_t line = 0;  ///< where it begins
     bool is_comment = false;
 };
 

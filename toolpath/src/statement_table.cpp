@@ -91,8 +91,8 @@ constexpr bool sortedByWord() {
 static_assert(sortedByWord());
 
 // Words by which an unknown statement betrays that it moves the tool: `L1) GOTO/…`, `P1=POINT/…` does not.
-constexpr std::array<std::string_view, 10> moving_words{"CIRCLE", "CYCLE", "GOBACK", "GODLTA", "GODOWN",
-                                                        "GOFWD",  "GOHOME", "GOLFT", "GORGT",  "GOTO"};
+constexpr std::array<std::string_view, 10> moving_words{"CIRCLE", "CYCLE",  "GOBACK", "GODLTA", "GODOWN",
+                                                        "GOFWD",  "GOHOME", "GOLFT",  "GORGT",  "GOTO"};
 
 bool isWordCharacter(char c) {
     const char upper = upperCase(c);
@@ -156,7 +156,8 @@ void unknownStatement(ReaderContext& context, const StatementHead& head, std::st
     if (!statement && !context.program_begun) {
         if (!context.preamble_noted) {
             context.preamble_noted = true;
-            context.report.note("cl.preamble", fmt::format("text before the first statement is passed over: '{}'", quoted(text)),
+            context.report.note("cl.preamble",
+                                fmt::format("text before the first statement is passed over: '{}'", quoted(text)),
                                 context.here());
         }
         return;

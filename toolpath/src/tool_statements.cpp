@@ -172,9 +172,10 @@ void handleLoad(ReaderContext& context, std::string_view word, std::string_view 
         return;  // CATIA repeats LOADTL at every operation of the tool in the spindle
     } else if (context.tool.number && context.tool.number != number) {
         // What TOOLNO, TPRINT and CUTTER told was about another tool.
-        context.warning("cl.tool", fmt::format("{} calls tool {}, but TOOLNO described tool {}: the tool is called without "
-                                               "name and shape",
-                                               word, *number, *context.tool.number));
+        context.warning("cl.tool",
+                        fmt::format("{} calls tool {}, but TOOLNO described tool {}: the tool is called without "
+                                    "name and shape",
+                                    word, *number, *context.tool.number));
         context.tool = ToolDescription{};
     }
     context.tool.number = number;
