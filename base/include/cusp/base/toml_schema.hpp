@@ -52,31 +52,14 @@ public:
     template <class E>
     Section& choice(std::string key, E T::*member, std::vector<std::pair<std::string, E>> words, std::string doc,
                     FieldRules rules = {}) {
-        FieldInfo info;
-        info.key = std::move(key);
-        info.doc = std::move(doc);
-        info.required = rules.required;
-        info.type = wordList(words);
-        const auto word_of = [words](E value) {
-            for (const auto& [word, meaning] : words)
-                if (meaning == value) return quoteToml(word);
-            return std::string();
-        };
-        info.default_text = rules.required ? "" : word_of(T{}.*member);
-        fields_.push_back({info,
-                           [member, words, info](T& out, const TomlNode& node, Diagnostics& report) {
-                               const auto text = node.text();
-                               for (const auto& [word, meaning] : words)
-                                   if (text && *text == word) {
-                                       out.*member = meaning;
-                                       return;
-                                   }
-                               reportWrongType(node, info, report);
-                           },
-                           [member, word_of, info](const T& value, ConfigPrinter& out) {
-                               out.value(info, word_of(value.*member));
-                           }});
-        return *this;
+        return addChoice(std::move(key), member, std::move(words), std::move(doc), rules);
+    }
+
+    /// One of a fixed set of words, or no such key.
+    template <class E>
+    Section& choice(std::string key, std::optional<E> T::*member, std::vector<std::pair<std::string, E>> words,
+                    std::string doc, FieldRules rules = {}) {
+        return addChoice(std::move(key), member, std::move(words), std::move(doc), rules);
     }
 
     /// A nested table `[key]`.
@@ -88,9 +71,22 @@ public:
                                out.*member = section.read(node, report);
                            },
                            [member, section, info](const T& value, ConfigPrinter& out) {
-                               out.open("[", info.key, "]");
-                               section.print(value.*member, out);
-                               out.close();
+                               printTable(section, value.*member, info, "[", quoteTomlKey(info.key), out);
+                           }});
+        return *this;
+    }
+
+    /// A nested table that may be absent; the member is empty then.
+    template <class U>
+    Section& table(std::string key, std::optional<U> T::*member, Section<U> section, FieldRules rules = {}) {
+        FieldInfo info = nestedInfo(std::move(key), section.doc(), "table", rules, section.describe());
+        fields_.push_back({info,
+                           [member, section](T& out, const TomlNode& node, Diagnostics& report) {
+                               out.*member = section.read(node, report);
+                           },
+                           [member, section, info](const T& value, ConfigPrinter& out) {
+                               if (value.*member)
+                                   printTable(section, *(value.*member), info, "[", quoteTomlKey(info.key), out);
                            }});
         return *this;
     }
@@ -102,15 +98,15 @@ public:
         fields_.push_back({info,
                            [member, section, info](T& out, const TomlNode& node, Diagnostics& report) {
                                if (!node.isArray()) return reportWrongType(node, info, report);
+                               std::vector<U> values;
                                for (const TomlNode& element : node.elements())
-                                   (out.*member).push_back(section.read(element, report));
+                                   values.push_back(section.read(element, report));
+                               out.*member = std::move(values);
                            },
                            [member, section, info](const T& value, ConfigPrinter& out) {
-                               for (const U& element : value.*member) {
-                                   out.open("[[", info.key, "]]");
-                                   section.print(element, out);
-                                   out.close();
-                               }
+                               if ((value.*member).empty()) out.value(info, "[]");
+                               for (const U& element : value.*member)
+                                   printTable(section, element, info, "[[", quoteTomlKey(info.key), out);
                            }});
         return *this;
     }
@@ -122,15 +118,16 @@ public:
         fields_.push_back({info,
                            [member, section, info](T& out, const TomlNode& node, Diagnostics& report) {
                                if (!node.isTable()) return reportWrongType(node, info, report);
+                               std::map<std::string, U> values;
                                for (const std::string& name : node.keys())
-                                   (out.*member)[name] = section.read(*node.at(name), report);
+                                   if (const auto element = node.at(name)) values[name] = section.read(*element, report);
+                               out.*member = std::move(values);
                            },
                            [member, section, info](const T& value, ConfigPrinter& out) {
-                               for (const auto& [name, element] : value.*member) {
-                                   out.open("[", info.key + "." + name, "]");
-                                   section.print(element, out);
-                                   out.close();
-                               }
+                               if ((value.*member).empty()) out.value(info, "{}");
+                               for (const auto& [name, element] : value.*member)
+                                   printTable(section, element, info, "[",
+                                              quoteTomlKey(info.key) + "." + quoteTomlKey(name), out);
                            }});
         return *this;
     }
@@ -173,8 +170,8 @@ public:
     }
 
     /// The struct as TOML text that reads back to the same struct; every default written out, units in the keys.
-    [[nodiscard]] std::string toToml(const T& value) const {
-        ConfigPrinter out;
+    [[nodiscard]] std::string toToml(const T& value, PrintDocs docs = PrintDocs::No) const {
+        ConfigPrinter out(docs);
         print(value, out);
         return out.text();
     }
@@ -187,6 +184,44 @@ public:
     }
 
 private:
+    template <class M, class E>
+    Section& addChoice(std::string key, M T::*member, std::vector<std::pair<std::string, E>> words, std::string doc,
+                       FieldRules rules) {
+        FieldInfo info;
+        info.key = std::move(key);
+        info.doc = std::move(doc);
+        info.required = rules.required;
+        info.type = wordList(words);
+        const auto word_of = [words](const M& value) {
+            for (const auto& [word, meaning] : words)
+                if (value == M(meaning)) return quoteToml(word);
+            return std::string();
+        };
+        info.default_text = rules.required ? "" : word_of(T{}.*member);
+        fields_.push_back({info,
+                           [member, words, info](T& out, const TomlNode& node, Diagnostics& report) {
+                               const auto text = node.text();
+                               for (const auto& [word, meaning] : words)
+                                   if (text && *text == word) {
+                                       out.*member = meaning;
+                                       return;
+                                   }
+                               reportWrongType(node, info, report);
+                           },
+                           [member, word_of, info](const T& value, ConfigPrinter& out) {
+                               out.value(info, word_of(value.*member));
+                           }});
+        return *this;
+    }
+
+    template <class U>
+    static void printTable(const Section<U>& section, const U& value, const FieldInfo& info, std::string_view before,
+                           const std::string& key, ConfigPrinter& out) {
+        out.open(before, key, before == "[[" ? "]]" : "]", info.doc);
+        section.print(value, out);
+        out.close();
+    }
+
     struct Field {
         FieldInfo info;
         std::function<void(T&, const TomlNode&, Diagnostics&)> read;
