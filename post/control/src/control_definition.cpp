@@ -36,9 +36,10 @@ constexpr base::FieldRules decimals() { return {.min = 0.0, .max = 9.0}; }
 Section<NumberFormat> formatSection() {
     Section<NumberFormat> section("How numbers are written: decimals after the point.");
     section
-        .field("linear_decimals", &NumberFormat::linear_decimals,
-               "Decimals of X, Y, Z and of other linear axes; 5 for finishing (Siemens five-axis manual 05/2009, p. 50).",
-               decimals())
+        .field(
+            "linear_decimals", &NumberFormat::linear_decimals,
+            "Decimals of X, Y, Z and of other linear axes; 5 for finishing (Siemens five-axis manual 05/2009, p. 50).",
+            decimals())
         .field("rotary_decimals", &NumberFormat::rotary_decimals, "Decimals of rotary axes.", decimals())
         .field("vector_decimals", &NumberFormat::vector_decimals,
                "Decimals of the direction components A3, B3, C3; fewer than 6 are felt in the surface.", decimals())
@@ -65,7 +66,8 @@ void checkStartCodes(const ControlDefinition& control, const TomlNode& table, Di
         return std::isprint(static_cast<unsigned char>(character)) != 0 && character != ';';
     });
     if (!printable)
-        report.error("control.start-codes", "these are the words of one block: no line ends, comments or special characters",
+        report.error("control.start-codes",
+                     "these are the words of one block: no line ends, comments or special characters",
                      table.whereKey("start_codes"));
 }
 
@@ -75,22 +77,24 @@ Section<ControlDefinition> makeControlSection() {
         .choice<ControlDefinition::Kind>("kind", &ControlDefinition::kind,
                                          {{"sinumerik-840d", ControlDefinition::Kind::Sinumerik840D}},
                                          "The family of the control.")
-        .field("md21104_ori_ipo_with_g_code", &ControlDefinition::md21104_ori_ipo_with_g_code,
-               "Machine datum MD21104 $MC_ORI_IPO_WITH_G_CODE. true: ORIVECT and ORIAXES decide how the orientation moves; "
-               "false: ORIWKS and ORIMKS do, and ORIAXES does nothing.")
-        .choice<ControlDefinition::Cycle832>("cycle832", &ControlDefinition::cycle832,
-                                             {{"none", ControlDefinition::Cycle832::None},
-                                              {"up-to-4.4", ControlDefinition::Cycle832::UpTo44},
-                                              {"from-4.5", ControlDefinition::Cycle832::From45}},
-                                             "The form of CYCLE832 by software version: (tolerance, mode, 1) up to 4.4, "
-                                             "(tolerance, mode, orientation tolerance) from 4.5; none leaves it out.")
+        .field(
+            "md21104_ori_ipo_with_g_code", &ControlDefinition::md21104_ori_ipo_with_g_code,
+            "Machine datum MD21104 $MC_ORI_IPO_WITH_G_CODE. true: ORIVECT and ORIAXES decide how the orientation moves; "
+            "false: ORIWKS and ORIMKS do, and ORIAXES does nothing.")
+        .choice<ControlDefinition::Cycle832>(
+            "cycle832", &ControlDefinition::cycle832,
+            {{"none", ControlDefinition::Cycle832::None},
+             {"up-to-4.4", ControlDefinition::Cycle832::UpTo44},
+             {"from-4.5", ControlDefinition::Cycle832::From45}},
+            "The form of CYCLE832 by software version: (tolerance, mode, 1) up to 4.4, "
+            "(tolerance, mode, orientation tolerance) from 4.5; none leaves it out.")
         .field("cycle832_tolerance_mm", &ControlDefinition::cycle832_tolerance_mm,
                "Contour tolerance given to CYCLE832; the control may leave the programmed path by as much.",
                base::positive())
         .field("cycle832_orientation_tolerance_deg", &ControlDefinition::cycle832_orientation_tolerance_rad,
-               "Orientation tolerance given to CYCLE832 from software 4.5; 0 gives none.",
-               {.min = 0.0, .max = 90.0})
-        .field("start_codes", &ControlDefinition::start_codes, "The modal codes every program and operation starts from.")
+               "Orientation tolerance given to CYCLE832 from software 4.5; 0 gives none.", {.min = 0.0, .max = 90.0})
+        .field("start_codes", &ControlDefinition::start_codes,
+               "The modal codes every program and operation starts from.")
         .field("work_offset", &ControlDefinition::work_offset,
                "The settable frame the programs run in: G54 to G57, G505 to G599, or G500 for none.")
         .field("block_number_step", &ControlDefinition::block_number_step,

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Where the tool is between the ends of a block, as the control interpolates.
+#pragma once
+
+#include <cusp/post/reader/executed_program.hpp>
+#include <cusp/post/reader/forward_chain.hpp>
+
+namespace cusp::post::reader {
+
+/// Pose at `fraction` in [0, 1] of a motion whose two poses are known: the tip on its line or arc; the tool axis as
+/// `orientation_path` says, or on the great circle when rotary values are not known.
+[[nodiscard]] ToolPose poseAt(const ExecutedMotion& motion, const ForwardChain& chain, double fraction);
+
+/// Largest travel of any rotary axis in the block, rad; 0 where values are not known.
+[[nodiscard]] double rotaryTravel(const ExecutedMotion& motion);
+
+}  // namespace cusp::post::reader

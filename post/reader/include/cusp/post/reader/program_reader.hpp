@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Runs a Sinumerik 840D program on paper and tells a sink what the machine would do.
+#pragma once
+
+#include <cusp/base/diagnostics.hpp>
+#include <cusp/post/control/control_definition.hpp>
+#include <cusp/post/reader/executed_program.hpp>
+
+#include <cstddef>
+#include <istream>
+#include <string>
+
+namespace cusp::post::reader {
+
+struct ReaderOptions {
+    /// M and H functions whose meaning belongs to the machine builder are errors instead of warnings.
+    bool strict = false;
+    /// Blocks longer than the control takes (512 characters) are errors, but a line longer than this ends the read: a
+    /// binary file must not be taken for one huge block.
+    std::size_t max_line_bytes = 64 * 1024;
+};
+
+struct ReadSummary {
+    std::size_t lines = 0;
+    std::size_t blocks = 0;  ///< lines with at least one word
+    std::size_t motions = 0;
+};
+
+/// Streams: memory does not grow with the program. Every problem is reported with its line, and reading goes on after
+/// those that leave the rest readable; what was handed to the sink is only meaningful when `report` gained no error.
+/// Errors: `nc.unsupported` (a word whose effect this reader cannot compute, by name), `nc.unknown-word`, `nc.syntax`,
+/// and the others that post/reader/README.md lists.
+ReadSummary readProgram(std::istream& in, const std::string& file_name, const MachineFile& machine,
+                        const ReaderOptions& options, ProgramSink& sink, base::Diagnostics& report);
+
+}  // namespace cusp::post::reader

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Centres from I, J, K or CR; sweeps with their full turns (PM12, circular and helical interpolation).
+#include "arc.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace cusp::post::reader {
+
+namespace {
+
+/// What the control allows between the radii at start and end: MD21000 (0.01 mm) and MD21010 (0.001 of the radius).
+double radiusTolerance(double radius_mm) { return std::max(0.01, 0.001 * radius_mm); }
+
+/// Start and end closer than this are one point: a full circle.
+constexpr double same_point_mm = 1e-9;
+constexpr double most_turns = 999.0;
+
+struct Plane {
+    std::size_t first;
+    std::size_t second;
+};
+
+Plane planeOf(std::string_view code) {
+    if (code == "G18") return {2, 0};
+    if (code == "G19") return {1, 2};
+    return {0, 1};
+}
+
+std::array<double, 3> toArray(const Vector3& v) { return {v.x, v.y, v.z}; }
+
+struct Point2 {
+    double first = 0.0;
+    double second = 0.0;
+};
+
+double distance(const Point2& a, const Point2& b) { return std::hypot(b.first - a.first, b.second - a.second); }
+
+std::optional<Point2> centerFromRadius(const Point2& start, const Point2& end, double radius, bool clockwise,
+                                       std::string& problem) {
+    const double chord = distance(start, end);
+    if (chord < same_point_mm) {
+        problem = "a full circle cannot be given by its radius";
+        return std::nullopt;
+    }
+    const double size = std::abs(radius);
+    if (chord / 2.0 > size + radiusTolerance(size)) {
+        problem = fmt::format("start and end are {:.4f} mm apart, too far for CR={:.4f} mm", chord, radius);
+        return std::nullopt;
+    }
+    // The centre lies left of the chord for a counter-clockwise arc of at most half a turn (CR > 0).
+    const double height = std::sqrt(std::max(0.0, size * size - chord * chord / 4.0));
+    const double side = (clockwise != (radius < 0.0)) ? -height : height;
+    const double along_first = (end.first - start.first) / chord;
+    const double along_second = (end.second - start.second) / chord;
+    return Point2{(start.first + end.first) / 2.0 - side * along_second,
+                  (start.second + end.second) / 2.0 + side * along_first};
+}
+
+Point2 centerFromWords(const BlockContent& content, const Point2& start, const Plane& plane, double mm_per_unit) {
+    const auto component = [&](std::size_t axis, double from) {
+        const auto& word = content.center[axis];
+        if (!word) return from;
+        const double value = word->value * mm_per_unit;
+        return word->mode == AxisTarget::Mode::Absolute ? value : from + value;
+    };
+    return {component(plane.first, start.first), component(plane.second, start.second)};
+}
+
+}  // namespace
+
+std::optional<Arc> makeArc(const BlockContent& content, const ArcRequest& request, std::string& problem) {
+    const Plane plane = planeOf(request.plane);
+    const std::size_t normal = 3 - plane.first - plane.second;
+    const auto from = toArray(request.start_mm);
+    const auto to = toArray(request.end_mm);
+    const Point2 start{from[plane.first], from[plane.second]};
+    const Point2 end{to[plane.first], to[plane.second]};
+    const bool has_center = content.center[plane.first] || content.center[plane.second];
+    if (has_center == content.radius.has_value() || content.center[normal]) {
+        problem = "it needs either its centre, in the active plane, or CR";
+        return std::nullopt;
+    }
+    const auto center =
+        has_center ? std::optional<Point2>(centerFromWords(content, start, plane, request.mm_per_unit))
+                   : centerFromRadius(start, end, *content.radius * request.mm_per_unit, request.clockwise, problem);
+    if (!center) return std::nullopt;
+    Arc arc;
+    arc.first_axis = plane.first;
+    arc.second_axis = plane.second;
+    arc.start_radius_mm = distance(*center, start);
+    arc.end_radius_mm = distance(*center, end);
+    arc.height_mm = to[normal] - from[normal];
+    if (std::abs(arc.start_radius_mm - arc.end_radius_mm) > radiusTolerance(arc.start_radius_mm)) {
+        problem = fmt::format("its start is {:.4f} mm and its end {:.4f} mm from its centre", arc.start_radius_mm,
+                              arc.end_radius_mm);
+        return std::nullopt;
+    }
+    auto center_mm = from;
+    center_mm[plane.first] = center->first;
+    center_mm[plane.second] = center->second;
+    arc.center_mm = {center_mm[0], center_mm[1], center_mm[2]};
+    arc.start_angle_rad = std::atan2(start.second - center->second, start.first - center->first);
+    const double end_angle = std::atan2(end.second - center->second, end.first - center->first);
+    constexpr double full_turn = 2.0 * std::numbers::pi;
+    double sweep = (request.clockwise ? -1.0 : 1.0) * (end_angle - arc.start_angle_rad);
+    if (sweep < 0.0) sweep += full_turn;
+    if (distance(start, end) < same_point_mm) sweep = full_turn;
+    const double turns = content.turns.value_or(0.0);
+    if (turns < 0.0 || turns > most_turns || turns != std::floor(turns)) {
+        problem = "TURN is a whole number from 0 to 999";
+        return std::nullopt;
+    }
+    arc.sweep_rad = (request.clockwise ? -1.0 : 1.0) * (sweep + turns * full_turn);
+    return arc;
+}
+
+}  // namespace cusp::post::reader

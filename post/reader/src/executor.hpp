@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The machine's state, and what each block does to it.
+#pragma once
+
+#include "block_content.hpp"
+
+#include <cusp/post/reader/executed_program.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cusp::post::reader {
+
+class Executor {
+public:
+    Executor(const MachineFile& machine, const ForwardChain& chain, ProgramSink& sink, base::Diagnostics& report);
+
+    void run(const Block& block, const BlockContent& content);
+
+    [[nodiscard]] bool ended() const { return ended_; }
+    [[nodiscard]] std::size_t motions() const { return motions_; }
+
+private:
+    void applyCodes(const BlockContent& content);
+    void applyFeedAndSpeed(const BlockContent& content);
+    void applyTool(const BlockContent& content);
+    void applyTransformation(bool on);
+    void applyEarlyFunctions(const BlockContent& content);
+    void applyLateFunctions(const BlockContent& content);
+    void dwell(const BlockContent& content);
+    void move(const BlockContent& content);
+    [[nodiscard]] bool checkMotion(const BlockContent& content, bool is_arc, bool moves);
+    [[nodiscard]] bool applyTargets(const BlockContent& content, ExecutedMotion& motion);
+    [[nodiscard]] std::optional<double> reach(const AxisTarget& target, const std::optional<double>& now, double scale,
+                                              std::string_view axis, bool endless);
+    [[nodiscard]] bool applyVector(const BlockContent& content);
+    [[nodiscard]] bool addArc(const BlockContent& content, ExecutedMotion& motion);
+    void requireRotary();
+    [[nodiscard]] std::optional<ToolPose> pose(const AxisPositions& position) const;
+    [[nodiscard]] std::optional<Vector3> axisFromRotary(const AxisPositions& position) const;
+    [[nodiscard]] bool rotaryAtZero(const AxisPositions& position) const;
+    [[nodiscard]] OrientationPath orientationPath() const;
+    [[nodiscard]] MotionCode motionCode() const;
+    [[nodiscard]] bool isActive(int group, std::string_view code) const;
+    [[nodiscard]] double mmPerUnit() const;
+    void forgetLinear();
+    void error(std::string_view code, std::string message);
+
+    const MachineFile& machine_;
+    const ForwardChain& chain_;
+    ProgramSink& sink_;
+    base::Diagnostics& report_;
+    const Block* block_ = nullptr;
+    BlockPlace place_;
+
+    std::array<std::string_view, group::count> active_{};
+    ModalSnapshot state_;
+    AxisPositions position_;
+    std::optional<Vector3> tool_axis_;  ///< known from rotary values or as programmed
+    std::string preselected_tool_;
+    bool transformation_ = false;
+    bool feed_missing_reported_ = false;
+    bool rotary_missing_reported_ = false;
+    bool ended_ = false;
+    std::size_t motions_ = 0;
+};
+
+}  // namespace cusp::post::reader
