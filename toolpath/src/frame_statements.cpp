@@ -73,7 +73,7 @@ void handleUnits(ReaderContext& context, std::string_view word, std::string_view
     const Fields fields(body);
     const std::optional<LengthUnit> unit = fields.size() == 1 ? lengthUnitFromWord(fields[0].text) : std::nullopt;
     if (!unit) {
-        context.error("cl.unit", fmt::format("{}/{} is not understood; MM or INCHES is", word, trimmed(body)));
+        context.error("cl.unit", fmt::format("{}/{} is not understood; MM or INCHES is", word, quoted(body)));
         return;
     }
     if (context.unit_source == UnitSource::Unknown) {
@@ -84,8 +84,8 @@ void handleUnits(ReaderContext& context, std::string_view word, std::string_view
             fmt::format("{}/{}, but the file was read in {} up to here: a change of unit inside a file is not read",
                         word, fields[0].text, unitName(context.mm_per_unit)));
     } else if (context.options.mm_per_unit && *context.options.mm_per_unit != mmPerUnitOf(*unit)) {
-        context.warning("cl.unit-option",
-                        fmt::format("the file says {}/{}; the unit given for it is not used", word, fields[0].text));
+        context.warning("cl.unit-option", fmt::format("the file says {}/{}; the unit given for it is not used", word,
+                                                      quoted(fields[0].text)));
     }
 }
 
@@ -93,8 +93,8 @@ void handleMsys(ReaderContext& context, std::string_view word, std::string_view 
     const Fields fields(body);
     std::array<double, 9> v{};
     if (fields.size() != v.size()) {
-        context.error("cl.syntax", fmt::format("{} has {} values; 9 are understood (origin, X and Y direction)", word,
-                                               fields.size()));
+        context.error("cl.syntax",
+                      fmt::format("{} takes 9 values (origin, X and Y direction), not {}", word, fields.size()));
         return;
     }
     if (!takeNumbers(context, word, fields, 0, v.size(), v.data())) {

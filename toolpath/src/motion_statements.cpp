@@ -91,9 +91,8 @@ bool readPlainGoto(ReaderContext& context, std::string_view body, LinearMotion& 
 void handleGoto(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
     if (fields.size() != 3 && fields.size() != 6) {
-        context.error("cl.syntax",
-                      fmt::format("{} has {}{} values; 3 (point) or 6 (point and tool axis) are understood", word,
-                                  fields.size(), fields.truncated() ? " or more" : ""));
+        context.error("cl.syntax", fmt::format("{} takes 3 values (point) or 6 (point and tool axis), not {}{}", word,
+                                               fields.size(), fields.truncated() ? " or more" : ""));
         return;
     }
     std::array<double, 6> values{};
@@ -125,7 +124,8 @@ void handleFrom(ReaderContext& context, std::string_view word, std::string_view 
     const Fields fields(body);
     std::array<double, 6> values{};
     if (fields.size() != 3 && fields.size() != 6) {
-        context.error("cl.syntax", fmt::format("{} has {} values; 3 or 6 are understood", word, fields.size()));
+        context.error("cl.syntax",
+                      fmt::format("{} takes 3 values (point) or 6 (point and tool axis), not {}", word, fields.size()));
     } else if (takeNumbers(context, word, fields, 0, fields.size(), values.data()) && fields.size() == 6) {
         context.axis = unitAxis(context, word, &values[3]).value_or(context.axis);
     }
@@ -135,7 +135,7 @@ void handleTlaxis(ReaderContext& context, std::string_view word, std::string_vie
     const Fields fields(body);
     std::array<double, 3> values{};
     if (fields.size() != 3) {
-        context.error("cl.syntax", fmt::format("{} has {} values; 3 are understood", word, fields.size()));
+        context.error("cl.syntax", fmt::format("{} takes 3 values, not {}", word, fields.size()));
         return;
     }
     if (!takeNumbers(context, word, fields, 0, 3, values.data())) {
@@ -150,7 +150,7 @@ void handleTlaxis(ReaderContext& context, std::string_view word, std::string_vie
 void handleMultax(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
     if (fields.size() > 1 || (fields.size() == 1 && !fields[0].is("ON") && !fields[0].is("OFF"))) {
-        context.error("cl.syntax", fmt::format("{}/{} is not understood; ON, OFF or nothing is", word, trimmed(body)));
+        context.error("cl.syntax", fmt::format("{}/{} is not understood; ON, OFF or nothing is", word, quoted(body)));
         return;
     }
     context.multax = fields.empty() || fields[0].is("ON");
@@ -164,7 +164,8 @@ void handleOnlyOff(ReaderContext& context, std::string_view word, std::string_vi
     if (fields.size() == 1 && fields[0].is("OFF")) {
         return;  // nothing of the kind can be on: switching it on is an error
     }
-    unsupportedMotion(context, fields.empty() ? std::string(word) : fmt::format("{}/{}", word, fields[0].text), body);
+    unsupportedMotion(context, fields.empty() ? std::string(word) : fmt::format("{}/{}", word, quoted(fields[0].text)),
+                      body);
 }
 
 }  // namespace cusp::toolpath::detail

@@ -55,7 +55,7 @@ void handleFedrat(ReaderContext& context, std::string_view word, std::string_vie
         } else if (const std::optional<FeedUnit> stated = field.is_number ? std::nullopt : feedUnit(context, field)) {
             unit = *stated;
         } else {
-            context.error("cl.feed", fmt::format("{}: '{}' is not understood", word, field.text));
+            context.error("cl.feed", fmt::format("{}: '{}' is not understood", word, quoted(field.text)));
             return;
         }
     }
@@ -95,12 +95,12 @@ void handleSpindl(ReaderContext& context, std::string_view word, std::string_vie
         } else if (field.is("OFF")) {
             off = true;
         } else {
-            context.error("cl.spindle", fmt::format("{}: '{}' is not understood", word, field.text));
+            context.error("cl.spindle", fmt::format("{}: '{}' is not understood", word, quoted(field.text)));
             return;
         }
     }
     if (fields.empty() || (speed && !(*speed >= 0.0)) || (off && speed)) {
-        context.error("cl.spindle", fmt::format("{}/{} is not understood", word, trimmed(body)));
+        context.error("cl.spindle", fmt::format("{}/{} is not understood", word, quoted(body)));
         return;
     }
     context.callOwedTool();
@@ -131,7 +131,7 @@ void handleCoolnt(ReaderContext& context, std::string_view word, std::string_vie
     }
     if (!kind) {
         const std::string message =
-            fmt::format("{}/{} is not understood; the coolant stays as it is", word, trimmed(body));
+            fmt::format("{}/{} is not understood; the coolant stays as it is", word, quoted(body));
         if (context.options.strict) {
             context.error("cl.coolant", message);
         } else {
@@ -149,7 +149,7 @@ void handleDelay(ReaderContext& context, std::string_view word, std::string_view
     if (fields.empty() || fields.size() > 2 || (fields.size() == 2 && !revolutions) || !fields[0].is_number ||
         !(fields[0].number >= 0.0)) {
         context.error("cl.delay", fmt::format("{}/{} is not understood; seconds, or revolutions with REV, are", word,
-                                              trimmed(body)));
+                                              quoted(body)));
         return;
     }
     double seconds = fields[0].number;

@@ -39,6 +39,19 @@ void ReaderContext::settleTool() {
     }
 }
 
+std::string quoted(std::string_view text) {
+    constexpr std::size_t most = 60;
+    text = trimmed(text);
+    if (text.size() <= most) {
+        return std::string(text);
+    }
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+        --end;  // not inside a UTF-8 character
+    }
+    return std::string(text.substr(0, end)) + "…";
+}
+
 bool takeNumbers(ReaderContext& context, std::string_view word, const Fields& fields, std::size_t first,
                  std::size_t count, double* out) {
     for (std::size_t i = first; i < first + count; ++i) {
@@ -47,7 +60,7 @@ bool takeNumbers(ReaderContext& context, std::string_view word, const Fields& fi
             return false;
         }
         if (!fields[i].is_number) {
-            context.error("cl.number", fmt::format("{}: '{}' is not a number", word, fields[i].text));
+            context.error("cl.number", fmt::format("{}: '{}' is not a number", word, quoted(fields[i].text)));
             return false;
         }
         out[i - first] = fields[i].number;

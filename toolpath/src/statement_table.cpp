@@ -122,12 +122,6 @@ bool looksLikeStatement(const StatementHead& head, std::string_view text) {
            !word.empty() && word.front() >= 'A' && word.front() <= 'Z';
 }
 
-constexpr std::size_t quoted_bytes = 40;  // of an unknown line, in a message
-
-std::string quoted(std::string_view text) {
-    return text.size() <= quoted_bytes ? std::string(text) : fmt::format("{}…", text.substr(0, quoted_bytes));
-}
-
 }  // namespace
 
 const StatementEntry* findStatement(std::string_view word, Dialect dialect) {

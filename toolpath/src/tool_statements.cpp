@@ -39,7 +39,7 @@ bool isPossible(const geometry::Cutter& cutter) {
 
 void takeCutter(ReaderContext& context, std::string_view word, std::string_view body, const geometry::Cutter& cutter) {
     if (!isPossible(cutter)) {
-        context.error("cl.cutter", fmt::format("{}/{} is not a possible cutter", word, trimmed(body)));
+        context.error("cl.cutter", fmt::format("{}/{} is not a possible cutter", word, quoted(body)));
         return;
     }
     context.tool.cutter = cutter;
@@ -61,7 +61,7 @@ void handleCutter(ReaderContext& context, std::string_view word, std::string_vie
     const Fields fields(body);
     constexpr std::size_t most = 7;
     if (fields.empty() || fields.size() > most) {
-        context.error("cl.syntax", fmt::format("{} has {} values; 1 to 7 are understood", word, fields.size()));
+        context.error("cl.syntax", fmt::format("{} takes 1 to 7 values, not {}", word, fields.size()));
         return;
     }
     std::array<double, most> values{};
@@ -91,7 +91,7 @@ void handleTldata(ReaderContext& context, std::string_view word, std::string_vie
     if (fields.size() != 1 + mill_values || !fields[0].is("MILL")) {
         context.warning("cl.tool-shape", fmt::format("{}/{}: only MILL with 5 values is understood; the tool is called "
                                                      "without its shape",
-                                                     word, trimmed(body)));
+                                                     word, quoted(body)));
         context.tool.cutter.reset();
         return;
     }
@@ -133,12 +133,12 @@ void handleToolPath(ReaderContext& context, std::string_view word, std::string_v
 void handleToolno(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
     if (fields.contains("TURN")) {
-        refuseTurning(context, fmt::format("TOOLNO/{},TURN", fields[0].text));
+        refuseTurning(context, fmt::format("TOOLNO/{},TURN", quoted(fields[0].text)));
         return;
     }
     const std::optional<std::int64_t> number = fields.empty() ? std::nullopt : toolNumber(fields[0]);
     if (!number) {
-        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected first", word, trimmed(body)));
+        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected first", word, quoted(body)));
         return;
     }
     context.tool.number = number;
@@ -156,12 +156,12 @@ void handleLoad(ReaderContext& context, std::string_view word, std::string_view 
     const bool load_tool = word == "LOAD";
     const std::size_t at = load_tool ? 1 : 0;
     if (load_tool && (fields.empty() || !fields[0].is("TOOL"))) {
-        context.error("cl.tool", fmt::format("{}/{} is not understood; LOAD/TOOL,number is", word, trimmed(body)));
+        context.error("cl.tool", fmt::format("{}/{} is not understood; LOAD/TOOL,number is", word, quoted(body)));
         return;
     }
     std::optional<std::int64_t> number = fields.size() > at ? toolNumber(fields[at]) : std::nullopt;
     if (!number) {
-        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected", word, trimmed(body)));
+        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected", word, quoted(body)));
         return;
     }
     if (context.dialect->tool_name_rule == ToolNameRule::OperationHeader) {
