@@ -132,6 +132,22 @@ void checkDirections(const MachineDefinition& machine, const TomlNode& root, Dia
     }
 }
 
+/// With two rotary axes the one nearer the tool must tilt it; with one, a table that only indexes is a machine too.
+void checkTilt(const MachineDefinition& machine, const TomlNode& root, Diagnostics& report) {
+    if (machine.rotary.size() != 2) return;
+    std::string nearest;
+    for (const std::string& name : machine.axisNames())
+        if (machine.rotary.contains(name)) nearest = name;
+    if (nearest.empty()) return;
+    const auto normal = cross(machine.rotary.at(nearest).direction, machine.spindle.axis);
+    if (std::hypot(normal[0], normal[1], normal[2]) < independent)
+        report.error("machine.rotary-spindle-parallel",
+                     fmt::format("rotary axis \"{}\" is nearest to the tool and parallel to the spindle, so it cannot "
+                                 "tilt the tool",
+                                 nearest),
+                     at(root, "rotary", nearest));
+}
+
 void checkAnchors(const MachineDefinition& machine, const TomlNode& root, Diagnostics& report) {
     for (std::size_t i = 0; i < machine.anchors.size(); ++i)
         for (const auto& [name, angle] : machine.anchors[i].rotary_rad)
@@ -208,6 +224,7 @@ void checkMachine(const MachineDefinition& machine, const TomlNode& root, Diagno
     checkChainNames(machine, root, report);
     checkAxisCounts(machine, root, report);
     checkDirections(machine, root, report);
+    checkTilt(machine, root, report);
     checkAnchors(machine, root, report);
     checkSources(machine, root, report);
 }

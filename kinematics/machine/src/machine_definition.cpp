@@ -18,8 +18,8 @@ constexpr std::string_view workpiece = "workpiece";
 constexpr std::string_view base_name = "base";
 constexpr std::string_view tool = "tool";
 
-// Ten thousand turns of winding would be a typing mistake, and every one of them a candidate to weigh.
-constexpr FieldRules angle_limit{.min = -36000.0, .max = 36000.0};
+// Every winding within the limits is a candidate the planner weighs; more than ten turns either way is a typing mistake.
+constexpr FieldRules angle_limit{.min = -3600.0, .max = 3600.0};
 
 Section<LinearAxis> linearSection() {
     Section<LinearAxis> section("A linear axis.");

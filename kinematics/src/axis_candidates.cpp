@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The planner's two ends: which positions a point can have, and what is handed out and reported of the one chosen.
+#include <cusp/kinematics/axis_planner.hpp>
+
+#include <cusp/base/units.hpp>
+#include <cusp/kinematics/angles.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace cusp::kinematics {
+namespace {
+
+using base::degFromRad;
+
+// A position this far beyond a limit is the limit with a rounding error.
+constexpr double limit_rounding_rad = 1e-9;
+
+/// The winding of `angle_rad` that lies least beyond `range`.
+double nearestWinding(const AxisRange& range, double angle_rad) {
+    if (range.endless) return angle_rad;
+    const double middle = 0.5 * (range.min + range.max);
+    return middle + wrapAngle(angle_rad - middle);
+}
+
+/// A degree value as a machinist writes it: at most three decimals, no trailing zeros.
+std::string degreeText(double angle_rad) {
+    std::string text = fmt::format("{:.3f}", degFromRad(angle_rad));
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
+}  // namespace
+
+void AxisPlanner::addWindings(std::size_t axis, double angle_rad) {
+    std::vector<double>& positions = positions_[axis];
+    positions.clear();
+    const AxisRange& range = machine_.rotaryRange(axis);
+    if (axis >= machine_.rotaryCount() || range.endless) {
+        positions.push_back(angle_rad);
+        return;
+    }
+    double position = angle_rad;
+    while (position - turn_rad >= range.min - limit_rounding_rad) position -= turn_rad;
+    while (position < range.min - limit_rounding_rad) position += turn_rad;
+    for (; position <= range.max + limit_rounding_rad; position += turn_rad)
+        positions.push_back(std::clamp(position, range.min, range.max));
+}
+
+/// The free first axis keeps the angles of the states before; at the very start it stays free.
+void AxisPlanner::gatherAtPole(const Layer& layer) {
+    std::vector<double>& first = positions_[0];
+    first.clear();
+    if (!layers_.empty()) {
+        const Layer& before = layers_.back();
+        for (std::size_t i = 0; i < before.count; ++i) {
+            const State& state = states_[before.first + i];
+            const double angle = state.rotary_rad[0];
+            const bool known = std::any_of(first.begin(), first.end(), [&](double other) {
+                return other == angle || (std::isnan(other) && std::isnan(angle));
+            });
+            if (state.alive && !known) first.push_back(angle);
+        }
+    } else {
+        first.push_back(last_ ? (*last_)[0] : std::numeric_limits<double>::quiet_NaN());
+    }
+    addWindings(1, layer.solved.branch[0][1]);
+}
+
+void AxisPlanner::gatherCandidates(const Layer& layer) {
+    candidates_.clear();
+    for (std::size_t b = 0; b < layer.solved.count; ++b) {
+        if (layer.solved.pole)
+            gatherAtPole(layer);
+        else
+            for (std::size_t i = 0; i < 2; ++i) addWindings(i, layer.solved.branch[b][i]);
+        for (const double first : positions_[0])
+            for (const double second : positions_[1]) candidates_.push_back({first, second});
+    }
+}
+
+/// No candidate lies within the limits: the one (or ones, when equal) that lies least beyond them.
+void AxisPlanner::gatherNearest(const Layer& layer) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < layer.solved.count; ++b) {
+        RotaryValues nearest = layer.solved.branch[b];
+        double excess = 0.0;
+        for (std::size_t i = 0; i < machine_.rotaryCount(); ++i) {
+            if (i == 0 && layer.solved.pole) continue;
+            nearest[i] = nearestWinding(machine_.rotaryRange(i), nearest[i]);
+            excess = std::max(excess, machine_.rotaryRange(i).excess(nearest[i]));
+        }
+        if (excess > least + limit_rounding_rad) continue;
+        if (excess < least - limit_rounding_rad) candidates_.clear();
+        least = std::min(least, excess);
+        if (!layer.solved.pole) {
+            candidates_.push_back(nearest);
+            continue;
+        }
+        gatherAtPole(layer);
+        for (const double first : positions_[0]) candidates_.push_back({first, nearest[1]});
+    }
+}
+
+void AxisPlanner::handOut(const Layer& layer, const RotaryValues& chosen) {
+    PlannedAxes out{.rotary_rad = chosen,
+                    .line = layer.line,
+                    .pole = layer.solved.pole,
+                    .within_limits = layer.within_limits,
+                    .reached = layer.solved.miss_rad <= options_.axis_tolerance_rad,
+                    .rewind = last_ && isRewind(layer, *last_, chosen)};
+    for (std::size_t i = 0; i < machine_.rotaryCount() && last_; ++i) {
+        if (machine_.rotaryRange(i).endless) out.rotary_rad[i] = (*last_)[i] + wrapAngle(chosen[i] - (*last_)[i]);
+        summary_.travel_rad[i] += std::abs(out.rotary_rad[i] - (*last_)[i]);
+    }
+    reportProblems(layer, out);
+    ++summary_.points;
+    summary_.pole_points += out.pole ? 1 : 0;
+    summary_.limit_violations += out.within_limits ? 0 : 1;
+    summary_.unreached += out.reached ? 0 : 1;
+    summary_.rewinds += out.rewind ? 1 : 0;
+    last_ = out.rotary_rad;
+    ready_.push_back(out);
+}
+
+void AxisPlanner::reportProblems(const Layer& layer, const PlannedAxes& out) {
+    const base::Location where{.file = options_.file_name, .line = layer.line, .column = 0, .key = {}};
+    if (!out.reached) {
+        const std::string miss = degreeText(layer.solved.miss_rad);
+        report_.error("kinematics.axis-unreachable",
+                      machine_.rotaryCount() == 0
+                          ? fmt::format("the tool axis at CL line {} leans {}° from the spindle, and the machine has no "
+                                        "rotary axis",
+                                        layer.line, miss)
+                          : fmt::format("the tool axis at CL line {} is {}° beyond what the rotary axes can reach",
+                                        layer.line, miss),
+                      where);
+    }
+    for (std::size_t i = 0; i < machine_.rotaryCount() && !out.within_limits; ++i) {
+        const AxisRange& range = machine_.rotaryRange(i);
+        if (range.excess(out.rotary_rad[i]) <= limit_rounding_rad) continue;
+        report_.error("kinematics.axis-limit",
+                      fmt::format("{} axis would need {}° at CL line {}; limit {}°", machine_.rotaryNames()[i],
+                                  degreeText(out.rotary_rad[i]), layer.line,
+                                  degreeText(out.rotary_rad[i] < range.min ? range.min : range.max)),
+                      where);
+    }
+    for (std::size_t i = 0; i < machine_.rotaryCount() && out.rewind; ++i) {
+        const double step = out.rotary_rad[i] - (*last_)[i];
+        if (std::abs(step) < options_.rewind_threshold_rad) continue;
+        report_.warning("kinematics.rewind",
+                        fmt::format("{} axis turns from {}° to {}° ({}°) at CL line {} while cutting",
+                                    machine_.rotaryNames()[i], degreeText((*last_)[i]), degreeText(out.rotary_rad[i]),
+                                    degreeText(std::abs(step)), layer.line),
+                        where);
+    }
+}
+
+}  // namespace cusp::kinematics
