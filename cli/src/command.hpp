@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// How a subcommand joins the command line: it declares its flags and leaves behind what to run.
+#pragma once
+
+#include "exit_code.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <functional>
+
+namespace cusp::cli {
+
+/// Set by the subcommand the user named.
+using Action = std::function<ExitCode()>;
+
+void addMachineCommand(CLI::App& app, Action& action);
+void addPostCommand(CLI::App& app, Action& action);
+void addSchemaCommand(CLI::App& app, Action& action);
+void addVerifyCommand(CLI::App& app, Action& action);
+
+}  // namespace cusp::cli

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// `cusp post`: a CL file becomes a Sinumerik 840D program, or nothing is written and the reason is told.
+#include "input.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "job_file.hpp"
+#include "machine_lookup.hpp"
+#include "post_text.hpp"
+
+#include <cusp/base/atomic_file.hpp>
+#include <cusp/base/json_report.hpp>
+#include <cusp/base/toml_node.hpp>
+#include <cusp/base/version.hpp>
+#include <cusp/post/writer/post_options.hpp>
+#include <cusp/post/writer/program_planner.hpp>
+#include <cusp/post/writer/sinumerik_writer.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace cusp::cli {
+
+namespace {
+
+struct Flags {
+    std::string cl_file;
+    std::string machine;
+    std::string output;
+    std::string config;
+    std::string dialect;
+    std::string units;
+    std::optional<std::string> program_name;
+    std::optional<std::string> work_offset;
+    std::optional<double> spindle_rpm;
+    bool strict = false;
+    bool json = false;
+    bool print_config = false;
+};
+
+/// Flag > job file > default.
+base::Result<post::PostOptions> optionsOf(const Flags& flags) {
+    PostJob job;
+    if (!flags.config.empty()) {
+        const auto document = base::TomlDocument::readFile(flags.config);
+        if (!document) return base::fail(document.error());
+        base::Diagnostics report;
+        job = postJobSection().read(document->root(), report);
+        if (report.hasErrors()) return base::fail(std::move(report));
+    }
+    if (flags.program_name) job.post.program_name = *flags.program_name;
+    if (flags.work_offset) job.post.work_offset = *flags.work_offset;
+    if (flags.spindle_rpm) job.post.spindle_rpm = *flags.spindle_rpm;
+    if (flags.strict) job.post.strict = true;
+    base::Diagnostics report;
+    post::checkOptions(job.post, report);
+    if (report.hasErrors()) return base::fail(std::move(report));
+    if (job.post.program_name.empty()) job.post.program_name = post::programNameFromFile(flags.output);
+    return job.post;
+}
+
+post::ProgramHead headOf(const Flags& flags, const post::PostOptions& options, const LoadedMachine& machine) {
+    return {options.program_name,
+            options.work_offset,
+            {"from " + fileNameOf(flags.cl_file) + " by cusp " + std::string(base::version()),
+             "machine: " + machine.file.machine.name, "X Y Z are the tool tip (TRAORI); linear travel not checked"}};
+}
+
+/// Keeps the first failure of a write until the end: the writer's steps have no way to answer.
+class ProgramFile {
+public:
+    explicit ProgramFile(base::OutputTarget target) : target_(std::move(target)) {}
+    void write(std::string_view text) {
+        if (!failure_.hasErrors())
+            if (const auto done = target_.write(text); !done) failure_ = done.error();
+    }
+    base::Result<void> commit() {
+        if (failure_.hasErrors()) return base::fail(failure_);
+        return target_.commit();
+    }
+
+private:
+    base::OutputTarget target_;
+    base::Diagnostics failure_;
+};
+
+ExitCode finish(const Flags& flags, const PostOutcome& outcome, ProgramFile& file) {
+    if (!outcome.report.hasErrors())
+        if (const auto done = file.commit(); !done) return failWith(done.error());
+    tell(outcome.report);
+    if (flags.json)
+        sayJson(toJson(outcome));
+    else if (flags.output != "-")
+        say(toText(outcome));
+    if (!outcome.report.hasErrors()) return ExitCode::Done;
+    return outcome.onlyLimits() ? ExitCode::FoundSomething : exitCodeOf(outcome.report);
+}
+
+ExitCode runPost(const Flags& flags) {
+    const auto options = optionsOf(flags);
+    if (!options) return failWith(options.error());
+    if (flags.print_config) {
+        say(postJobSection().toToml({*options}));
+        return ExitCode::Done;
+    }
+    auto machine = loadMachine(flags.machine);
+    if (!machine) return failWith(machine.error());
+    auto input = ClInput::open(flags.cl_file, clReaderOptions(flags.dialect, flags.units, options->strict));
+    if (!input) return failWith(input.error());
+    auto target = base::OutputTarget::open(flags.output);
+    if (!target) return failWith(target.error());
+    ProgramFile file(*std::move(target));
+
+    PostOutcome outcome{.cl_file = flags.cl_file, .output = flags.output, .machine = *machine};
+    base::Diagnostics planning;
+    post::SinumerikWriter writer([&file](std::string_view text) { file.write(text); }, machine->file,
+                                 headOf(flags, *options, *machine));
+    post::ProgramPlanner planner(machine->file, machine->model, *options, flags.cl_file, writer, planning);
+    for (toolpath::ClRecord record; input->reader().next(record);) {
+        if (interrupted()) return ExitCode::Interrupted;
+        planner.take(record);
+    }
+    outcome.summary = planner.finish();
+    outcome.blocks = writer.finish();
+    outcome.report.append(input->reader().report());
+    outcome.report.append(planning);
+    outcome.dialect = toolpath::dialectName(input->reader().dialect());
+    outcome.mm_per_unit = input->reader().mmPerUnit();
+    return finish(flags, outcome, file);
+}
+
+}  // namespace
+
+void addPostCommand(CLI::App& app, Action& action) {
+    CLI::App* post = app.add_subcommand("post", "Turns a CL file (APT from NX or CATIA) into a Sinumerik 840D program.");
+    const auto flags = std::make_shared<Flags>();
+    post->add_option("FILE", flags->cl_file, "CL file; - for standard input.")->required();
+    post->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")->required();
+    post->add_option("-o,--output", flags->output, "Program to write; - for standard output.")->required();
+    post->add_option("--config", flags->config, "Job file with a [post] table; flags win over it.");
+    post->add_option("--dialect", flags->dialect, "Who wrote the CL file, when it cannot be told from the text.")
+        ->check(CLI::IsMember({"nx", "catia", "apt"}));
+    post->add_option("--units", flags->units, "Unit of lengths, when the CL file does not say.")
+        ->check(CLI::IsMember({"mm", "inch"}));
+    post->add_option("--name", flags->program_name, "Program name, at most 24 letters, digits, underscores.");
+    post->add_option("--work-offset", flags->work_offset, "Work offset, e.g. G54 or G505.");
+    post->add_option("--spindle-rpm", flags->spindle_rpm, "Spindle speed, clockwise, until the CL file gives one.");
+    post->add_flag("--strict", flags->strict, "Statements that are not understood, and cuts with the spindle off, are errors.");
+    CLI::Option* json = post->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
+    post->add_flag("--print-config", flags->print_config, "Prints the job as cusp understood it, and stops.");
+    post->callback([flags, json, &action] {
+        if (*json && flags->output == "-") throw CLI::ValidationError("--json", "cannot share standard output with -o -");
+        action = [flags] { return runPost(*flags); };
+    });
+}
+
+}  // namespace cusp::cli

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// `cusp schema`: the documentation page of a file cusp reads, straight from the table that reads it.
+#include "command.hpp"
+#include "console.hpp"
+#include "job_file.hpp"
+
+#include <cusp/base/schema_field.hpp>
+#include <cusp/post/control/control_definition.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cusp::cli {
+
+namespace {
+
+std::string machineFilePage() {
+    std::vector<base::FieldInfo> fields = machine::machineSection().describe();
+    fields.push_back(base::nestedInfo("control", post::controlSection().doc(), "table", {}, post::controlSection().describe()));
+    return base::schemaMarkdown("Machine files",
+                                "A machine is one TOML file: how its axes stand on one another, what they can do, and "
+                                "what its control wants to read. The unit of a number is the end of its key; a key that "
+                                "is not listed here is an error. `cusp machine check FILE` says whether a file is sound.",
+                                fields);
+}
+
+std::string postJobPage() {
+    return base::schemaMarkdown("Posting jobs",
+                                "`cusp post --config JOB.toml` reads these; a flag of the same name wins over the file.",
+                                postJobSection().describe());
+}
+
+}  // namespace
+
+void addSchemaCommand(CLI::App& app, Action& action) {
+    CLI::App* schema = app.add_subcommand("schema", "Prints the documentation page (Markdown) of a file cusp reads.");
+    const auto page = std::make_shared<std::string>();
+    schema->add_option("PAGE", *page, "machine-file or post-job")
+        ->required()
+        ->check(CLI::IsMember({"machine-file", "post-job"}));
+    schema->callback([page, &action] {
+        action = [page] {
+            say(*page == "machine-file" ? machineFilePage() : postJobPage());
+            return ExitCode::Done;
+        };
+    });
+}
+
+}  // namespace cusp::cli

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// `cusp verify`: reads a program back through kinematics of its own and says whether it does what its CL file says.
+#include "input.hpp"
+#include "command.hpp"
+#include "console.hpp"
+#include "machine_lookup.hpp"
+
+#include <cusp/base/json_report.hpp>
+#include <cusp/base/units.hpp>
+#include <cusp/post/verify/verify_program.hpp>
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace cusp::cli {
+
+namespace {
+
+using post::verify::Extreme;
+using post::verify::VerifyReport;
+
+struct Flags {
+    std::string program;
+    std::string machine;
+    std::string against;
+    std::string dialect;
+    std::string units;
+    std::string work_offset;
+    double tip_tolerance_mm = 0.001;
+    double axis_tolerance_deg = 0.001;
+    std::optional<double> between_axis_tolerance_deg;
+    bool strict = false;
+    bool json = false;
+};
+
+base::Json toJson(const Extreme& extreme, double per_unit) {
+    base::Json out;
+    out["value"] = extreme.value * per_unit;
+    out["program_line"] = extreme.program_line;
+    if (extreme.block_number) out["block_number"] = *extreme.block_number;
+    out["cl_line"] = extreme.cl_line;
+    return out;
+}
+
+base::Json toJson(const Flags& flags, const VerifyReport& report) {
+    const double deg = base::degFromRad(1.0);
+    base::Json out = base::jsonReport("verify", 1);
+    out["program"] = flags.program;
+    out["against"] = report.compared ? base::Json(flags.against) : base::Json();
+    out["pass"] = report.pass;
+    out["points"] = report.points;
+    out["matched"] = report.matched;
+    out["missed"] = report.missed;
+    out["blocks"] = report.blocks;
+    out["motions"] = report.motions;
+    out["intermediate"] = report.intermediate;
+    out["links"] = report.links;
+    out["extra"] = report.extra;
+    out["max_tip_error_mm"] = report.max_tip_error_mm.value;
+    out["max_axis_error_deg"] = report.max_axis_error_rad.value * deg;
+    out["max_tip_between_mm"] = report.max_tip_between_mm.value;
+    out["max_axis_between_deg"] = report.max_axis_between_rad.value * deg;
+    out["where"] = {{"max_tip_error", toJson(report.max_tip_error_mm, 1.0)},
+                    {"max_axis_error", toJson(report.max_axis_error_rad, deg)},
+                    {"max_tip_between", toJson(report.max_tip_between_mm, 1.0)},
+                    {"max_axis_between", toJson(report.max_axis_between_rad, deg)}};
+    out["limit_violations"] = report.limit_violations;
+    out["rotary_limits"] = report.rotary_limits_checked ? "checked" : "not checked";
+    out["linear_travel"] = report.linear_travel_checked ? "checked" : "not checked";
+    out["diagnostics"] = base::diagnosticsToJson(report.findings);
+    return out;
+}
+
+base::Result<std::optional<toolpath::ToolPath>> readAgainst(const Flags& flags) {
+    if (flags.against.empty()) return std::optional<toolpath::ToolPath>();
+    base::Diagnostics warnings;
+    auto path = toolpath::readToolPathFile(flags.against, clReaderOptions(flags.dialect, flags.units, flags.strict), warnings);
+    tell(warnings);
+    if (!path) return base::fail(std::move(path).error());
+    return std::optional<toolpath::ToolPath>(*std::move(path));
+}
+
+ExitCode runVerify(const Flags& flags) {
+    auto machine = loadMachine(flags.machine);
+    if (!machine) return failWith(machine.error());
+    if (!flags.work_offset.empty()) machine->file.control.work_offset = flags.work_offset;
+    const auto against = readAgainst(flags);
+    if (!against) return failWith(against.error());
+    auto program = TextInput::open(flags.program);
+    if (!program) return failWith(program.error());
+
+    post::verify::VerifyOptions options;
+    options.tip_tolerance_mm = flags.tip_tolerance_mm;
+    options.between_tip_tolerance_mm = flags.tip_tolerance_mm;
+    options.axis_tolerance_rad = base::radFromDeg(flags.axis_tolerance_deg);
+    if (flags.between_axis_tolerance_deg)
+        options.between_axis_tolerance_rad = base::radFromDeg(*flags.between_axis_tolerance_deg);
+    options.strict = flags.strict;
+    const auto report = post::verify::verifyProgram(program->stream(), program->name(), machine->file,
+                                                    *against ? &**against : nullptr, options);
+    if (!report) return failWith(report.error());
+    tell(report->findings);
+    if (flags.json)
+        sayJson(toJson(flags, *report));
+    else
+        say(fmt::format("{} on {}{}\n", fileNameOf(flags.program), machine->file.machine.name,
+                        flags.against.empty() ? "" : ", against " + fileNameOf(flags.against)) +
+            post::verify::toText(*report));
+    return report->pass ? ExitCode::Done : ExitCode::FoundSomething;
+}
+
+}  // namespace
+
+void addVerifyCommand(CLI::App& app, Action& action) {
+    CLI::App* verify = app.add_subcommand(
+        "verify", "Reads an 840D program back through kinematics of its own and compares it with its CL file.");
+    const auto flags = std::make_shared<Flags>();
+    verify->add_option("PROGRAM", flags->program, "Program to read; - for standard input.")->required();
+    verify->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")->required();
+    verify->add_option("--against", flags->against, "CL file the program must follow.");
+    verify->add_option("--dialect", flags->dialect, "Who wrote the CL file, when it cannot be told from the text.")
+        ->check(CLI::IsMember({"nx", "catia", "apt"}));
+    verify->add_option("--units", flags->units, "Unit of lengths, when the CL file does not say.")
+        ->check(CLI::IsMember({"mm", "inch"}));
+    verify->add_option("--work-offset", flags->work_offset, "Work offset the program must run in, when not the machine file's.");
+    verify->add_option("--tip-tolerance-mm", flags->tip_tolerance_mm, "Allowed distance of the tip from the CL file.")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    verify->add_option("--axis-tolerance-deg", flags->axis_tolerance_deg, "Allowed angle of the tool axis at block ends.")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    verify->add_option("--between-axis-tolerance-deg", flags->between_axis_tolerance_deg,
+                       "Allowed angle between block ends; stated but not judged when left out.")
+        ->check(CLI::PositiveNumber);
+    verify->add_flag("--strict", flags->strict, "Words whose meaning is the machine builder's are errors.");
+    verify->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
+    verify->callback([flags, &action] { action = [flags] { return runVerify(*flags); }; });
+}
+
+}  // namespace cusp::cli

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// CL files and programs, or standard input, opened for reading.
+#pragma once
+
+#include <cusp/base/result.hpp>
+#include <cusp/toolpath/cl_reader.hpp>
+
+#include <fstream>
+#include <istream>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace cusp::cli {
+
+/// `dialect`: "", "nx", "catia", "apt"; `units`: "", "mm", "inch" (checked by the command line).
+[[nodiscard]] toolpath::ClReaderOptions clReaderOptions(const std::string& dialect, const std::string& units, bool strict);
+
+/// The file name without its folder; "-" as "standard input".
+[[nodiscard]] std::string fileNameOf(const std::string& path);
+
+/// A text file or standard input.
+class TextInput {
+public:
+    /// Error `io.open` with the system's reason.
+    [[nodiscard]] static base::Result<TextInput> open(const std::string& path);
+    [[nodiscard]] std::istream& stream() { return *stream_; }
+    /// For messages.
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+private:
+    TextInput() = default;
+    std::unique_ptr<std::ifstream> file_;
+    std::istream* stream_ = nullptr;
+    std::string name_;
+};
+
+class ClInput {
+public:
+    /// Errors as `TextInput::open`.
+    [[nodiscard]] static base::Result<ClInput> open(const std::string& path, const toolpath::ClReaderOptions& options);
+    [[nodiscard]] toolpath::ClReader& reader() { return *reader_; }
+
+private:
+    explicit ClInput(TextInput text) : text_(std::move(text)) {}
+    TextInput text_;
+    std::unique_ptr<toolpath::ClReader> reader_;
+};
+
+}  // namespace cusp::cli

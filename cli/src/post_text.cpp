@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The words and keys of a posting's outcome.
+#include "post_text.hpp"
+
+#include "input.hpp"
+
+#include <cusp/base/units.hpp>
+
+#include <fmt/format.h>
+
+namespace cusp::cli {
+
+namespace {
+
+std::string plural(std::size_t count, const char* noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string rotaryText(const PostOutcome& outcome) {
+    const auto& names = outcome.machine.model.rotaryNames();
+    const auto& summary = outcome.summary;
+    std::string out;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto& range = outcome.machine.model.rotaryRange(i);
+        const auto& [low, high] = summary.rotary_range_rad[i];
+        out += fmt::format("  {} moves between {:.3f}° and {:.3f}°, ", names[i], base::degFromRad(low), base::degFromRad(high));
+        out += range.endless ? "endless\n"
+                             : fmt::format("limits {:.6g}° and {:.6g}°\n", base::degFromRad(range.min),
+                                           base::degFromRad(range.max));
+    }
+    if (summary.largest_rotary_step_rad > 0.0)
+        out += fmt::format("  largest rotary step: {} by {:.3f}° at CL line {}\n", names[summary.largest_rotary_step_axis],
+                           base::degFromRad(summary.largest_rotary_step_rad), summary.largest_rotary_step_cl_line);
+    return out;
+}
+
+bool isLimit(const base::Diagnostic& diagnostic) {
+    return diagnostic.code == "kinematics.axis-limit" || diagnostic.code == "kinematics.axis-unreachable" ||
+           diagnostic.code == "post.spindle-limit";
+}
+
+}  // namespace
+
+bool PostOutcome::onlyLimits() const {
+    for (const auto& diagnostic : report)
+        if (diagnostic.severity == base::Severity::Error && !isLimit(diagnostic)) return false;
+    return report.hasErrors();
+}
+
+std::string toText(const PostOutcome& outcome) {
+    const auto& summary = outcome.summary;
+    std::string out = fmt::format("{}: {} CL file in {}, {}, {}, {}\n", fileNameOf(outcome.cl_file), outcome.dialect,
+                                  outcome.mm_per_unit == 1.0 ? "mm" : "inches", plural(summary.operations, "operation"),
+                                  plural(summary.tool_changes, "tool change"),
+                                  plural(summary.cutter_locations, "cutter location"));
+    out += fmt::format("  for {}\n", outcome.machine.file.machine.name);
+    if (outcome.report.hasErrors()) {
+        const std::string limits =
+            summary.limit_violations > 0 ? ", " + plural(summary.limit_violations, "limit violation") : "";
+        return out + fmt::format("  NO PROGRAM WRITTEN: {}{}\n", plural(outcome.report.errorCount(), "error"), limits);
+    }
+    out += rotaryText(outcome);
+    out += "  linear travel not checked: nothing says where the workpiece lies in the machine\n";
+    if (outcome.report.warningCount() > 0) out += "  " + plural(outcome.report.warningCount(), "warning") + ", see above\n";
+    return out + fmt::format("  {} → {}\n", plural(outcome.blocks, "block"), outcome.output);
+}
+
+base::Json toJson(const PostOutcome& outcome) {
+    const auto& summary = outcome.summary;
+    base::Json out = base::jsonReport("post", 1);
+    out["cl_file"] = outcome.cl_file;
+    out["dialect"] = outcome.dialect;
+    out["mm_per_unit"] = outcome.mm_per_unit;
+    out["machine"] = outcome.machine.file.machine.name;
+    out["program"] = outcome.report.hasErrors() ? base::Json() : base::Json(outcome.output);
+    out["cutter_locations"] = summary.cutter_locations;
+    out["operations"] = summary.operations;
+    out["tool_changes"] = summary.tool_changes;
+    out["blocks"] = outcome.blocks;
+    out["warnings"] = outcome.report.warningCount();
+    out["errors"] = outcome.report.errorCount();
+    out["limit_violations"] = summary.limit_violations;
+    out["rotary_travel_deg"] = base::degFromRad(summary.rotary_travel_rad);
+    out["largest_rotary_step_deg"] = base::degFromRad(summary.largest_rotary_step_rad);
+    out["largest_rotary_step_cl_line"] = summary.largest_rotary_step_cl_line;
+    out["rotary_range_deg"] = base::Json::object();
+    for (std::size_t i = 0; i < outcome.machine.model.rotaryCount(); ++i)
+        out["rotary_range_deg"][outcome.machine.model.rotaryNames()[i]] = {
+            base::degFromRad(summary.rotary_range_rad[i].first), base::degFromRad(summary.rotary_range_rad[i].second)};
+    out["linear_travel"] = "not checked";
+    out["diagnostics"] = base::diagnosticsToJson(outcome.report);
+    return out;
+}
+
+}  // namespace cusp::cli

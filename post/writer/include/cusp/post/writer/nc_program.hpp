@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// An NC program as data, before any control's spelling: what golden tests print and a control's writer turns into text.
+#pragma once
+
+#include <cusp/geometry/frames.hpp>
+#include <cusp/kinematics/machine.hpp>
+#include <cusp/toolpath/cl_record.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace cusp::post {
+
+/// Text for people, no effect on the machine.
+struct Comment {
+    std::string text;
+};
+
+/// The control's modal defaults, so that nothing is left over from the program before.
+struct ModalStart {};
+
+/// Rapid to the machine's home in machine coordinates: the retract axis alone first, with the tool offset off, then the
+/// rest. Transformations are off.
+struct GoHome {};
+
+struct ChangeTool {
+    std::optional<std::int64_t> number;
+    std::string name;  ///< preferred when not empty
+};
+
+/// Path smoothing with the control's tolerances (CYCLE832 on an 840D).
+struct Smoothing {
+    bool on = true;
+};
+
+/// The operator's line on the screen.
+struct ScreenMessage {
+    std::string text;
+};
+
+struct SelectWorkOffset {};
+
+struct Spindle {
+    toolpath::SpindleCommand::Turn turn = toolpath::SpindleCommand::Turn::Off;
+    double speed_rpm = 0.0;
+};
+
+struct Coolant {
+    toolpath::CoolantCommand::Kind kind = toolpath::CoolantCommand::Kind::Off;
+};
+
+using kinematics::RotaryValues;
+
+/// Rapid of the rotary axes alone, in machine coordinates, at home height.
+struct PositionRotary {
+    RotaryValues rotary_rad{};
+};
+
+/// Tool-tip programming on (TRAORI on an 840D): from here X, Y, Z are the tip in the workpiece frame.
+struct TipProgramming {
+    bool on = true;
+};
+
+/// To the first point with a tool: rapid in the plane at home height, then down, at feed when the CL file feeds there.
+struct Approach {
+    geometry::Vector3 tip_mm = geometry::Vector3::Zero();
+    RotaryValues rotary_rad{};
+    toolpath::MotionKind kind = toolpath::MotionKind::Rapid;
+    toolpath::FeedRate feed;  ///< meaningful when kind is Feed
+};
+
+/// A straight move of the tip with the rotary axes moving along.
+struct Move {
+    geometry::Vector3 tip_mm = geometry::Vector3::Zero();
+    RotaryValues rotary_rad{};
+    toolpath::MotionKind kind = toolpath::MotionKind::Feed;
+    toolpath::FeedRate feed;  ///< meaningful when kind is Feed
+};
+
+struct Pause {
+    double seconds = 0.0;
+};
+
+struct Stop {
+    bool optional = false;
+};
+
+struct End {};
+
+using NcItem = std::variant<Comment, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset, Spindle,
+                            Coolant, PositionRotary, TipProgramming, Approach, Move, Pause, Stop, End>;
+
+/// One step of the program and the CL line it stands for (0: none).
+struct NcStep {
+    NcItem item;
+    std::uint32_t cl_line = 0;
+};
+
+/// Takes the steps in order. A control's writer is one; a collector for tests another.
+class NcSink {
+public:
+    virtual ~NcSink() = default;
+    virtual void step(const NcStep& step) = 0;
+};
+
+/// One line of text, lengths in mm, angles in degrees, the same on every machine: "move feed X1.0000 … C10.0000 A5.0000".
+[[nodiscard]] std::string toText(const NcStep& step, const std::vector<std::string>& rotary_names);
+
+}  // namespace cusp::post

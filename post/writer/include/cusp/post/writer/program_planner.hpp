@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// CL records in, steps of an NC program out: tool changes, approaches, modal state, rotary axes.
+#pragma once
+
+#include <cusp/base/diagnostics.hpp>
+#include <cusp/kinematics/machine.hpp>
+#include <cusp/post/control/control_definition.hpp>
+#include <cusp/post/writer/nc_program.hpp>
+#include <cusp/post/writer/post_options.hpp>
+#include <cusp/toolpath/cl_record.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace cusp::post {
+
+/// What a posting did.
+struct PostSummary {
+    std::size_t cutter_locations = 0;
+    std::size_t operations = 0;
+    std::size_t tool_changes = 0;
+    std::size_t limit_violations = 0;
+    /// Smallest and largest value of each rotary axis, in chain order.
+    std::array<std::pair<double, double>, 2> rotary_range_rad{};
+    /// Total movement of the rotary axes between cutter locations, and the largest single one.
+    double rotary_travel_rad = 0.0;
+    double largest_rotary_step_rad = 0.0;
+    std::size_t largest_rotary_step_axis = 0;
+    std::uint32_t largest_rotary_step_cl_line = 0;
+};
+
+/// A streaming stage: memory is bounded by the branch planner's window, not by the path.
+class ProgramPlanner {
+public:
+    /// `cl_file` is for messages. All references must outlive the planner.
+    ProgramPlanner(const MachineFile& file, const kinematics::Machine& machine, PostOptions options, std::string cl_file,
+                   NcSink& sink, base::Diagnostics& report);
+    ~ProgramPlanner();
+    ProgramPlanner(const ProgramPlanner&) = delete;
+    ProgramPlanner& operator=(const ProgramPlanner&) = delete;
+
+    void take(const toolpath::ClRecord& record);
+    /// Ends the program. The steps are only good to run when `report` has no errors.
+    PostSummary finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace cusp::post

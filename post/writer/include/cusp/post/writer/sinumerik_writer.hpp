@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The leaf that spells NC steps as Sinumerik 840D text.
+#pragma once
+
+#include <cusp/post/control/control_definition.hpp>
+#include <cusp/post/writer/nc_program.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cusp::post {
+
+/// What stands in the comments at the head of the program.
+struct ProgramHead {
+    std::string program_name;
+    std::string work_offset;  ///< empty: the machine file's
+    std::vector<std::string> comments;
+};
+
+/// Where the text goes, some kilobytes at a time.
+using TextSink = std::function<void(std::string_view)>;
+
+class SinumerikWriter : public NcSink {
+public:
+    /// `file` must outlive the writer.
+    SinumerikWriter(TextSink out, const MachineFile& file, const ProgramHead& head);
+    ~SinumerikWriter() override;
+
+    void step(const NcStep& step) override;
+    /// Flushes; answers the number of blocks (lines that are not only a comment).
+    std::size_t finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace cusp::post

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The text dump of NC steps: what golden tests compare, the same for every machine and control.
+#include <cusp/post/writer/nc_program.hpp>
+
+#include <cusp/base/units.hpp>
+
+#include <fmt/format.h>
+
+namespace cusp::post {
+
+using toolpath::CoolantCommand;
+using toolpath::FeedRate;
+using toolpath::MotionKind;
+using toolpath::SpindleCommand;
+
+namespace {
+
+struct StepText {
+    const std::vector<std::string>& rotary_names;
+
+    std::string rotary(const RotaryValues& values) const {
+        std::string out;
+        for (std::size_t i = 0; i < rotary_names.size(); ++i)
+            out += fmt::format(" {}{:.4f}", rotary_names[i], base::degFromRad(values[i]));
+        return out;
+    }
+    static std::string tip(const geometry::Vector3& tip_mm) {
+        return fmt::format(" X{:.4f} Y{:.4f} Z{:.4f}", tip_mm.x(), tip_mm.y(), tip_mm.z());
+    }
+    static std::string feed(const FeedRate& feed) {
+        if (feed.unit == FeedRate::Unit::MmPerRev) return fmt::format(" {:.4f} mm/rev", feed.value);
+        return fmt::format(" {:.3f} mm/min", base::mmPerMinFromMmPerS(feed.value));
+    }
+
+    template <class Motion>
+    std::string motion(const Motion& item) const {
+        const bool rapid = item.kind == MotionKind::Rapid;
+        return (rapid ? "rapid" : "feed") + tip(item.tip_mm) + rotary(item.rotary_rad) + (rapid ? "" : feed(item.feed));
+    }
+
+    std::string operator()(const Comment& item) const { return "comment " + item.text; }
+    std::string operator()(const ModalStart&) const { return "modal-start"; }
+    std::string operator()(const GoHome&) const { return "go-home"; }
+    std::string operator()(const ChangeTool& item) const {
+        const std::string number = item.number ? fmt::format(" {}", *item.number) : "";
+        return "change-tool" + number + (item.name.empty() ? "" : " \"" + item.name + "\"");
+    }
+    std::string operator()(const Smoothing& item) const { return item.on ? "smoothing on" : "smoothing off"; }
+    std::string operator()(const ScreenMessage& item) const { return "message " + item.text; }
+    std::string operator()(const SelectWorkOffset&) const { return "work-offset"; }
+    std::string operator()(const Spindle& item) const {
+        if (item.turn == SpindleCommand::Turn::Off) return "spindle off";
+        const char* turn = item.turn == SpindleCommand::Turn::Clockwise ? "cw" : "ccw";
+        return fmt::format("spindle {} {:.3f} rpm", turn, item.speed_rpm);
+    }
+    std::string operator()(const Coolant& item) const {
+        switch (item.kind) {
+            case CoolantCommand::Kind::Off: return "coolant off";
+            case CoolantCommand::Kind::Flood: return "coolant flood";
+            case CoolantCommand::Kind::Mist: return "coolant mist";
+            case CoolantCommand::Kind::Through: return "coolant through";
+        }
+        return {};
+    }
+    std::string operator()(const PositionRotary& item) const { return "position-rotary" + rotary(item.rotary_rad); }
+    std::string operator()(const TipProgramming& item) const {
+        return item.on ? "tip-programming on" : "tip-programming off";
+    }
+    std::string operator()(const Approach& item) const { return "approach " + motion(item); }
+    std::string operator()(const Move& item) const { return "move " + motion(item); }
+    std::string operator()(const Pause& item) const { return fmt::format("pause {:.3f} s", item.seconds); }
+    std::string operator()(const Stop& item) const { return item.optional ? "optional-stop" : "stop"; }
+    std::string operator()(const End&) const { return "end"; }
+};
+
+}  // namespace
+
+std::string toText(const NcStep& step, const std::vector<std::string>& rotary_names) {
+    return std::visit(StepText{rotary_names}, step.item);
+}
+
+}  // namespace cusp::post

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Real five-axis CL files, posted and proved on every shipped machine that can hold them.
+#include "command_line.hpp"
+
+namespace cusp::cli {
+namespace {
+
+class RealFiles : public CommandLine {
+protected:
+    void SetUp() override {
+        CommandLine::SetUp();
+        if (!std::filesystem::exists(CUSP_SHARED_DATA)) GTEST_SKIP() << "no real files at " << CUSP_SHARED_DATA;
+    }
+    nlohmann::json postAndVerify(const std::string& name, const std::string& machine) {
+        const std::string cl = std::string(CUSP_SHARED_DATA) + "/cl/" + name;
+        const auto posted = run({"post", cl, "-m", machine, "-o", path("P.MPF"), "--spindle-rpm", "5000"});
+        EXPECT_EQ(posted.exit_code, 0) << machine << "\n" << posted.errors << posted.output;
+        const auto verified = run({"verify", path("P.MPF"), "-m", machine, "--against", cl, "--json"});
+        EXPECT_EQ(verified.exit_code, 0) << machine << "\n" << verified.errors << verified.output;
+        return nlohmann::json::parse(verified.output, nullptr, false);
+    }
+};
+
+TEST_F(RealFiles, FiveAxisPathsFollowTheirClFiles) {
+    for (const std::string machine : {"fooke-endura-ca", "head-c200-a95", "haas-umc-bc", "trunnion-ac"}) {
+        const auto json = postAndVerify("nx_variable_axis.cls", machine);
+        EXPECT_EQ(json["points"], 348);
+        EXPECT_EQ(json["matched"], 348);
+        EXPECT_LE(json["max_tip_error_mm"].get<double>(), 0.001);
+        EXPECT_LE(json["max_axis_error_deg"].get<double>(), 0.001);
+        EXPECT_EQ(json["limit_violations"], 0);
+    }
+    EXPECT_EQ(postAndVerify("nx_apt_code.cls", "fooke-endura-ca")["matched"], 325);
+}
+
+}  // namespace
+}  // namespace cusp::cli

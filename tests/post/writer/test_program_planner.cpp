@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// From CL text to NC steps, as the text dump shows them; and what the planner refuses or warns of.
+#include <cusp/base/units.hpp>
+#include <cusp/post/writer/program_planner.hpp>
+#include <cusp/toolpath/cl_reader.hpp>
+
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace cusp::post {
+namespace {
+
+class Collector : public NcSink {
+public:
+    explicit Collector(std::vector<std::string> rotary_names) : names(std::move(rotary_names)) {}
+    void step(const NcStep& step) override { text += toText(step, names) + "\n"; }
+
+    std::vector<std::string> names;
+    std::string text;
+};
+
+class Planner : public ::testing::Test {
+protected:
+    Planner() : file(parseMachineFile(machine_text, "head.toml").value()) {}
+
+    std::string plan(const std::string& cl_text, PostOptions options = {}) {
+        const kinematics::Machine machine(file.machine);
+        Collector collector(machine.rotaryNames());
+        ProgramPlanner planner(file, machine, std::move(options), "part.cls", collector, report);
+        std::istringstream in(cl_text);
+        toolpath::ClReader reader(in, "part.cls");
+        for (toolpath::ClRecord record; reader.next(record);) planner.take(record);
+        summary = planner.finish();
+        EXPECT_FALSE(reader.report().hasErrors()) << base::toText(reader.report());
+        return collector.text;
+    }
+
+    static constexpr const char* machine_text = R"(
+schema = 1
+name = "head"
+chain = ["workpiece", "base", "X", "Y", "Z", "C", "A", "tool"]
+[linear.X]
+direction = [1, 0, 0]
+min_mm = -1000
+max_mm = 1000
+home_mm = 0
+max_velocity_mm_per_min = 30000
+max_acceleration_mm_per_s2 = 3000
+max_jerk_mm_per_s3 = 30000
+[linear.Y]
+direction = [0, 1, 0]
+min_mm = -1000
+max_mm = 1000
+home_mm = 0
+max_velocity_mm_per_min = 30000
+max_acceleration_mm_per_s2 = 3000
+max_jerk_mm_per_s3 = 30000
+[linear.Z]
+direction = [0, 0, 1]
+min_mm = -1000
+max_mm = 1000
+home_mm = 900
+max_velocity_mm_per_min = 30000
+max_acceleration_mm_per_s2 = 3000
+max_jerk_mm_per_s3 = 30000
+[rotary.C]
+direction = [0, 0, 1]
+point_mm = [0, 0, 0]
+winding = "limited"
+min_deg = -200
+max_deg = 200
+home_deg = 0
+max_velocity_deg_per_s = 90
+max_acceleration_deg_per_s2 = 300
+max_jerk_deg_per_s3 = 3000
+[rotary.A]
+direction = [1, 0, 0]
+point_mm = [0, 0, 200]
+winding = "limited"
+min_deg = -95
+max_deg = 95
+home_deg = 0
+max_velocity_deg_per_s = 90
+max_acceleration_deg_per_s2 = 300
+max_jerk_deg_per_s3 = 3000
+[spindle]
+axis = [0, 0, 1]
+gauge_point_mm = [0, 0, 0]
+max_speed_rpm = 12000
+[control]
+kind = "sinumerik-840d"
+)";
+    static constexpr const char* head = "TOOL PATH/OP1,TOOL,BALL_6\n"
+                                        "TLDATA/MILL,6.0,3.0,50.0,0.0,0.0\n"
+                                        "MSYS/0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,0.0\n";
+
+    MachineFile file;
+    base::Diagnostics report;
+    PostSummary summary;
+};
+
+TEST_F(Planner, OneOperation) {
+    // u = (sin C sin A, −cos C sin A, cos A): leaning to +X by asin 0.6 is C 90, A 36.8699 (or C −90, A −36.8699).
+    const std::string text = plan(std::string(head) +
+                                  "SPINDL/RPM,8000,CLW\n"
+                                  "COOLNT/ON\n"
+                                  "RAPID\n"
+                                  "GOTO/0.0,0.0,50.0,0.0,0.0,1.0\n"
+                                  "FEDRAT/MMPM,1200.0\n"
+                                  "GOTO/0.0,0.0,0.0,0.6,0.0,0.8\n"
+                                  "GOTO/10.0,0.0,0.0\n"
+                                  "RAPID\n"
+                                  "GOTO/10.0,0.0,50.0\n"
+                                  "END-OF-PATH\n");
+    EXPECT_TRUE(report.empty()) << base::toText(report);
+    EXPECT_EQ(text,
+              "modal-start\n"
+              "go-home\n"
+              "comment operation OP1\n"
+              "message OP1\n"
+              "change-tool \"BALL_6\"\n"
+              "comment work offset: the programming frame, origin X0.0000 Y0.0000 Z0.0000 mm in the part\n"
+              "smoothing on\n"
+              "work-offset\n"
+              "spindle cw 8000.000 rpm\n"
+              "coolant flood\n"
+              "position-rotary C90.0000 A0.0000\n"
+              "tip-programming on\n"
+              "approach rapid X0.0000 Y0.0000 Z50.0000 C90.0000 A0.0000\n"
+              "move feed X0.0000 Y0.0000 Z0.0000 C90.0000 A36.8699 1200.000 mm/min\n"
+              "move feed X10.0000 Y0.0000 Z0.0000 C90.0000 A36.8699 1200.000 mm/min\n"
+              "move rapid X10.0000 Y0.0000 Z50.0000 C90.0000 A36.8699\n"
+              "tip-programming off\n"
+              "spindle off\n"
+              "coolant off\n"
+              "go-home\n"
+              "smoothing off\n"
+              "end\n");
+    EXPECT_EQ(summary.cutter_locations, 4U);
+    EXPECT_EQ(summary.operations, 1U);
+    EXPECT_EQ(summary.tool_changes, 1U);
+    EXPECT_NEAR(summary.rotary_travel_rad, std::asin(0.6), 1e-12);
+    EXPECT_EQ(summary.largest_rotary_step_axis, 1U);
+    EXPECT_EQ(summary.largest_rotary_step_cl_line, 9U);
+}
+
+TEST_F(Planner, ToolChangeGoesHomeWithTheSpindleOff) {
+    const std::string cut = "RAPID\nGOTO/0.0,0.0,50.0,0.0,0.0,1.0\nFEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0\n";
+    const std::string text = plan(std::string(head) + "SPINDL/RPM,8000,CLW\n" + cut + "END-OF-PATH\n" +
+                                  "TOOL PATH/OP2,TOOL,BALL_8\nTLDATA/MILL,8.0,4.0,50.0,0.0,0.0\n" + cut + "END-OF-PATH\n");
+    const auto leave = text.find("tip-programming off\nspindle off\ngo-home\nchange-tool \"BALL_8\"\n");
+    EXPECT_NE(leave, std::string::npos) << text;
+    // The second operation cuts with the spindle on again, although the file gives its speed once.
+    EXPECT_NE(text.find("spindle cw 8000.000 rpm", leave), std::string::npos) << text;
+    EXPECT_EQ(summary.tool_changes, 2U);
+}
+
+TEST_F(Planner, CuttingWithTheSpindleOffIsToldOnce) {
+    const std::string cl = std::string(head) + "FEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\nGOTO/1.0,0.0,0.0\n";
+    plan(cl);
+    EXPECT_EQ(base::toText(report), "part.cls:5: warning: cuts with the spindle off: there is no SPINDL before it. Give "
+                                    "the speed with --spindle-rpm. [post.spindle-off]\n");
+    report = {};
+    EXPECT_NE(plan(cl, {.spindle_rpm = 5000.0}).find("spindle cw 5000.000 rpm\n"), std::string::npos);
+    EXPECT_TRUE(report.empty()) << base::toText(report);
+    plan(cl, {.strict = true});
+    EXPECT_TRUE(report.hasErrors());
+}
+
+TEST_F(Planner, FeedMoveWithoutFeedIsAnError) {
+    plan("TOOL PATH/OP1,TOOL,T\nTLDATA/MILL,6.0,3.0,50.0,0.0,0.0\nUNITS/MM\nSPINDL/RPM,100,CLW\n"
+         "GOTO/0.0,0.0,0.0,0.0,0.0,1.0\n");
+    EXPECT_EQ(base::toText(report),
+              "part.cls:5: error: a cutting move without a feed rate: there is no FEDRAT before it [post.no-feed]\n");
+}
+
+TEST_F(Planner, SpindleAboveItsLimit) {
+    plan(std::string(head) + "SPINDL/RPM,15000,CLW\nFEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\n");
+    EXPECT_EQ(base::toText(report), "part.cls:4: error: S15000 is above the spindle's limit of 12000 rev/min "
+                                    "[post.spindle-limit]\n");
+    EXPECT_EQ(summary.limit_violations, 1U);
+}
+
+TEST_F(Planner, SurfaceSpeedNeedsTheCutter) {
+    // 100 m/min on 6 mm: 100000 / (π·6) = 5305.165 rev/min.
+    const std::string cut = "FEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\n";
+    EXPECT_NE(plan(std::string(head) + "SPINDL/SMM,100,CLW\n" + cut).find("spindle cw 5305.165 rpm"), std::string::npos);
+}
+
+TEST_F(Planner, ASecondProgrammingFrameIsRefused) {
+    plan(std::string(head) + "SPINDL/RPM,100,CLW\nFEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\nEND-OF-PATH\n" +
+         "TOOL PATH/OP2,TOOL,BALL_6\nMSYS/0.0,0.0,5.0,1.0,0.0,0.0,0.0,1.0,0.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\n");
+    ASSERT_TRUE(report.hasErrors());
+    EXPECT_EQ(report.front().code, "post.second-frame");
+    EXPECT_EQ(report.front().where.line, 9U);
+}
+
+TEST_F(Planner, AxisBeyondItsLimitNamesLineValueAndLimit) {
+    plan(std::string(head) + "SPINDL/RPM,100,CLW\nFEDRAT/MMPM,100.0\n"
+                             "GOTO/0.0,0.0,0.0,0.0,0.0,1.0\n"
+                             "GOTO/1.0,0.0,0.0,0.0,0.9848077530122080,-0.1736481776669303\n");
+    ASSERT_TRUE(report.hasErrors());
+    EXPECT_EQ(report.front().code, "kinematics.axis-limit");
+    EXPECT_EQ(report.front().where.line, 7U);
+    EXPECT_NE(report.front().message.find("100"), std::string::npos) << report.front().message;
+    EXPECT_NE(report.front().message.find("95"), std::string::npos) << report.front().message;
+    EXPECT_EQ(summary.limit_violations, 1U);
+}
+
+TEST(ProgramName, MadeFromTheFile) {
+    EXPECT_EQ(programNameFromFile("/tmp/nx part-7.cls"), "NX_PART_7");
+    EXPECT_EQ(programNameFromFile("a_name_that_is_much_too_long_for_a_control.mpf"), "A_NAME_THAT_IS_MUCH_TOO_");
+    EXPECT_EQ(programNameFromFile("-"), "PROGRAM");
+}
+
+}  // namespace
+}  // namespace cusp::post

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// How NC steps are spelled: exact 840D text, modal words, strings.
+#include <cusp/base/units.hpp>
+#include <cusp/post/writer/sinumerik_writer.hpp>
+
+#include <gtest/gtest.h>
+
+namespace cusp::post {
+namespace {
+
+using toolpath::FeedRate;
+using toolpath::MotionKind;
+
+/// A C-then-A head with round numbers.
+MachineFile headMachine() {
+    MachineFile file;
+    file.machine.chain = {"workpiece", "base", "X", "Y", "Z", "C", "A", "tool"};
+    for (const char* name : {"X", "Y", "Z"}) file.machine.linear[name].home_mm = 0.0;
+    file.machine.linear["Z"].home_mm = 800.0;
+    file.machine.rotary["C"].direction = {0, 0, 1};
+    file.machine.rotary["A"].direction = {1, 0, 0};
+    return file;
+}
+
+class Writer : public ::testing::Test {
+protected:
+    template <class... Items>
+    std::string write(const Items&... items) {
+        std::string out;
+        SinumerikWriter writer([&out](std::string_view text) { out += text; }, file, {"P", "", {}});
+        (writer.step({items, 0}), ...);
+        blocks = writer.finish();
+        return out;
+    }
+    static Move feedMove(double x, double y, double z, double c_deg, double a_deg, double feed_mm_per_min) {
+        return {{x, y, z},
+                {base::radFromDeg(c_deg), base::radFromDeg(a_deg)},
+                MotionKind::Feed,
+                {base::mmPerSFromMmPerMin(feed_mm_per_min), FeedRate::Unit::MmPerS}};
+    }
+
+    MachineFile file = headMachine();
+    std::size_t blocks = 0;
+};
+
+TEST_F(Writer, StartsWithDefaultsAndHome) {
+    EXPECT_EQ(write(ModalStart{}, GoHome{}),
+              "; P\n"
+              "N10 G40 G17 G710 G94 G90 G60 G601 FNORM\n"
+              "N20 TRAFOOF\n"
+              "N30 SUPA G0 Z800 D0\n"
+              "N40 SUPA G0 X0 Y0 C0 A0 D0\n");
+    EXPECT_EQ(blocks, 4U);
+}
+
+TEST_F(Writer, OnlyChangedWordsArePrinted) {
+    EXPECT_EQ(write(feedMove(1, 2, 3, 10, 20, 3000), feedMove(1, 2.5, 3, 10, 20, 3000), feedMove(1, 2.5, 3, 11, 20, 500)),
+              "; P\n"
+              "N10 G94 G1 X1 Y2 Z3 C10 A20 F3000\n"
+              "N20 Y2.5\n"
+              "N30 C11 F500\n");
+}
+
+TEST_F(Writer, APointThatPrintsTheSameIsNoBlock) {
+    EXPECT_EQ(write(feedMove(1, 2, 3, 0, 0, 100), feedMove(1.000001, 2, 3, 0, 0, 100), feedMove(1.00002, 2, 3, 0, 0, 100)),
+              "; P\n"
+              "N10 G94 G1 X1 Y2 Z3 C0 A0 F100\n"
+              "N20 X1.00002\n");
+    EXPECT_EQ(blocks, 2U);
+}
+
+TEST_F(Writer, TransformationForgetsPositionsAndCallsTheOffsetAgain) {
+    EXPECT_EQ(write(feedMove(1, 2, 3, 0, 0, 100), TipProgramming{true}, feedMove(1, 2, 3, 0, 0, 100)),
+              "; P\n"
+              "N10 G94 G1 X1 Y2 Z3 C0 A0 F100\n"
+              "N20 TRAORI\n"
+              "N30 G54\n"
+              "N40 ORIAXES\n"
+              "N50 G1 X1 Y2 Z3 C0 A0\n");
+}
+
+TEST_F(Writer, OrientationCommandFollowsMD21104) {
+    file.control.md21104_ori_ipo_with_g_code = false;
+    EXPECT_EQ(write(TipProgramming{true}), "; P\nN10 TRAORI\nN20 G54\nN30 ORIMKS\n");
+}
+
+TEST_F(Writer, ApproachGoesInThePlaneFirst) {
+    const Approach rapid{{10, 20, 30}, {0, 0}, MotionKind::Rapid, {}};
+    EXPECT_EQ(write(PositionRotary{{0, 0}}, rapid), "; P\nN10 G0 C0 A0\nN20 X10 Y20\nN30 Z30\n");
+    const Approach feed{{10, 20, 30}, {0, 0}, MotionKind::Feed, {10.0, FeedRate::Unit::MmPerS}};
+    EXPECT_EQ(write(feed), "; P\nN10 G0 X10 Y20 C0 A0\nN20 G94 G1 Z30 F600\n");
+}
+
+TEST_F(Writer, FeedPerRevolution) {
+    const Move per_rev{{1, 0, 0}, {0, 0}, MotionKind::Feed, {0.125, FeedRate::Unit::MmPerRev}};
+    EXPECT_EQ(write(feedMove(0, 0, 0, 0, 0, 100), per_rev),
+              "; P\nN10 G94 G1 X0 Y0 Z0 C0 A0 F100\nN20 G95 X1 F0.125\n");
+}
+
+TEST_F(Writer, ToolsByNameOrNumber) {
+    EXPECT_EQ(write(ChangeTool{5, "BALL \"6\""}), "; P\nN10 T=\"BALL _6_\"\nN20 M6\nN30 D1\n");
+    EXPECT_EQ(write(ChangeTool{5, ""}), "; P\nN10 T5\nN20 M6\nN30 D1\n");
+}
+
+TEST_F(Writer, SmoothingPerSoftware) {
+    file.control.cycle832_orientation_tolerance_rad = base::radFromDeg(0.05);
+    EXPECT_EQ(write(Smoothing{true}, Smoothing{false}), "; P\nN10 CYCLE832(0.01,_ORI_FINISH,0.05)\nN20 CYCLE832()\n");
+    file.control.cycle832 = ControlDefinition::Cycle832::UpTo44;
+    EXPECT_EQ(write(Smoothing{true}), "; P\nN10 CYCLE832(0.01,1,1)\n");
+    file.control.cycle832 = ControlDefinition::Cycle832::None;
+    EXPECT_EQ(write(Smoothing{true}), "; P\n");
+}
+
+TEST_F(Writer, NamesOfSeveralLettersTakeAnEqualsSign) {
+    file.machine.chain = {"workpiece", "base", "X", "Y", "Z", "C1", "A", "tool"};
+    file.machine.rotary["C1"] = file.machine.rotary["C"];
+    EXPECT_EQ(write(PositionRotary{{base::radFromDeg(-90), 0}}), "; P\nN10 G0 C1=-90 A0\n");
+}
+
+TEST_F(Writer, TextIsPrintableAndShort) {
+    const std::string out = write(ScreenMessage{std::string(600, 'x') + "\n"}, Comment{"a\nM30"});
+    EXPECT_EQ(out, "; P\nN10 MSG(\"" + std::string(120, 'x') + "\")\n; a_M30\n");
+}
+
+}  // namespace
+}  // namespace cusp::post
