@@ -16,9 +16,6 @@ namespace {
 
 using base::degFromRad;
 
-// A position this far beyond a limit is the limit with a rounding error.
-constexpr double limit_rounding_rad = 1e-9;
-
 /// The winding of `angle_rad` that lies least beyond `range`.
 double nearestWinding(const AxisRange& range, double angle_rad) {
     if (range.endless) return angle_rad;
@@ -44,10 +41,12 @@ void AxisPlanner::addWindings(std::size_t axis, double angle_rad) {
         positions.push_back(angle_rad);
         return;
     }
+    // A horizontal axis printed with six decimals can need 90.00003°; at a limit of 90° that is the limit.
+    const double tolerance = options_.axis_tolerance_rad;
     double position = angle_rad;
-    while (position - turn_rad >= range.min - limit_rounding_rad) position -= turn_rad;
-    while (position < range.min - limit_rounding_rad) position += turn_rad;
-    for (; position <= range.max + limit_rounding_rad; position += turn_rad)
+    while (position - turn_rad >= range.min - tolerance) position -= turn_rad;
+    while (position < range.min - tolerance) position += turn_rad;
+    for (; position <= range.max + tolerance; position += turn_rad)
         positions.push_back(std::clamp(position, range.min, range.max));
 }
 
@@ -94,8 +93,9 @@ void AxisPlanner::gatherNearest(const Layer& layer) {
             nearest[i] = nearestWinding(machine_.rotaryRange(i), nearest[i]);
             excess = std::max(excess, machine_.rotaryRange(i).excess(nearest[i]));
         }
-        if (excess > least + limit_rounding_rad) continue;
-        if (excess < least - limit_rounding_rad) candidates_.clear();
+        constexpr double equal_rad = 1e-9;
+        if (excess > least + equal_rad) continue;
+        if (excess < least - equal_rad) candidates_.clear();
         least = std::min(least, excess);
         if (!layer.solved.pole) {
             candidates_.push_back(nearest);
@@ -142,7 +142,7 @@ void AxisPlanner::reportProblems(const Layer& layer, const PlannedAxes& out) {
     }
     for (std::size_t i = 0; i < machine_.rotaryCount() && !out.within_limits; ++i) {
         const AxisRange& range = machine_.rotaryRange(i);
-        if (range.excess(out.rotary_rad[i]) <= limit_rounding_rad) continue;
+        if (range.excess(out.rotary_rad[i]) == 0.0) continue;
         report_.error("kinematics.axis-limit",
                       fmt::format("{} axis would need {}° at CL line {}; limit {}°", machine_.rotaryNames()[i],
                                   degreeText(out.rotary_rad[i]), layer.line,

@@ -85,10 +85,10 @@ private:
             const AxisRange& range = machine_.rotaryRange(i);
             const std::vector<double> positions = machine_.windings(i, wrapAngle(pose_.rotary_rad[i]));
             for (const double position : positions)
-                if (range.excess(position) > 0.0 || std::abs(wrapAngle(position - pose_.rotary_rad[i])) > 1e-8) wrong += 1.0;
+                if (range.excess(position) > 0.0 || std::abs(wrapAngle(position - pose_.rotary_rad[i])) > 1e-11) wrong += 1.0;
             double expected = range.endless ? 1.0 : 0.0;
             for (int turns = -12; turns <= 12 && !range.endless; ++turns)
-                if (range.excess(wrapAngle(pose_.rotary_rad[i]) + turns * turn_rad) <= 1e-9) expected += 1.0;
+                if (range.excess(wrapAngle(pose_.rotary_rad[i]) + turns * turn_rad) <= 1e-12) expected += 1.0;
             wrong += std::abs(expected - static_cast<double>(positions.size()));
         }
         put(limits_, wrong);

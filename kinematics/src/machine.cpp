@@ -13,8 +13,8 @@
 namespace cusp::kinematics {
 namespace {
 
-// A position this far beyond a limit is the limit with a rounding error: 1e-9 rad is 6e-8 degrees.
-constexpr double limit_rounding_rad = 1e-9;
+// A position this far beyond a limit is the limit with a rounding error, and is taken as the limit.
+constexpr double limit_rounding_rad = 1e-12;
 
 }  // namespace
 

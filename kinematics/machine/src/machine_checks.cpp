@@ -89,7 +89,8 @@ void checkChainNames(const MachineDefinition& machine, const TomlNode& root, Dia
                          at(root, "rotary", name));
     }
     const auto unused = [&](std::string_view table, const std::string& name) {
-        if (!seen.contains(name))
+        // A chain without any axis has been reported as such.
+        if (!seen.empty() && !seen.contains(name))
             report.error("machine.axis-unused", fmt::format("axis \"{}\" does not stand in the chain", name),
                          at(root, table, name));
     };

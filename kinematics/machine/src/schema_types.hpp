@@ -22,7 +22,7 @@ void readValue(const base::TomlNode& node, const base::FieldInfo& info, RotaryPo
 
 template <>
 struct cusp::base::TypeName<cusp::machine::Direction> {
-    static std::string text() { return "three numbers, not all zero"; }
+    static std::string text() { return TypeName<std::array<double, 3>>::text(); }
 };
 template <>
 struct cusp::base::TypeName<cusp::machine::RotaryPose> {

@@ -20,7 +20,8 @@ struct PlannerOptions {
     /// Points looked at together. The choice is the best over the whole path while the path fits, and never looks ahead by
     /// less than half of this. 32 768 points are minutes of cutting and about 8 MB.
     std::size_t window_points = 32768;
-    /// A tool axis out of reach by up to this is taken as the nearest one. CL files print six decimals: 0.87e-6.
+    /// A tool axis out of reach, or a position beyond a limit, by up to this is taken as the nearest that is allowed. CL
+    /// files print six decimals: 0.87e-6.
     double axis_tolerance_rad = 1e-6;
     /// Within this of the first rotary axis the direction across it is the rounding of a CL file's seventh decimal
     /// (0.7e-7), so the axis counts as the pole and its angle as free.
