@@ -218,6 +218,7 @@ void Executor::move(const BlockContent& content) {
     motion.start = position_;
     motion.start_pose = motion.machine_coordinates ? std::nullopt : pose(position_);
     if (!applyTargets(content, motion) || !applyVector(content)) return forgetLinear();
+    motion.end.rotary_rad = position_.rotary_rad;
     if (!motion.machine_coordinates) {
         if (transformation_) requireRotary();
         motion.end_pose = pose(position_);

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Does a program do what its CL file says? Answered by running the program on paper and comparing.
+#pragma once
+
+#include <cusp/base/diagnostics.hpp>
+#include <cusp/base/result.hpp>
+#include <cusp/base/units.hpp>
+#include <cusp/post/control/control_definition.hpp>
+#include <cusp/toolpath/cl_reader.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+
+namespace cusp::post::verify {
+
+struct VerifyOptions {
+    double tip_tolerance_mm = 0.001;
+    double axis_tolerance_rad = base::radFromDeg(0.001);
+    /// Limit on the tool axis between block ends. Off by default: where the rotary axes run linearly near the pole, the
+    /// axis leaves the great circle between two CL points without the tip leaving its line.
+    std::optional<double> between_axis_tolerance_rad;
+    /// Limit on the tip between block ends.
+    double between_tip_tolerance_mm = 0.001;
+    /// Feeds may differ by this part of themselves: what printing them costs.
+    double feed_tolerance = 1e-3;
+    double speed_tolerance_rpm = 0.51;
+    /// The cutting blocks must run in the work offset the machine file names.
+    bool check_work_offset = true;
+    /// Warnings of the reader (M functions of the machine builder) are errors.
+    bool strict = false;
+};
+
+/// The largest value of something and where it was met.
+struct Extreme {
+    double value = 0.0;
+    std::size_t program_line = 0;
+    std::optional<std::uint64_t> block_number;
+    std::size_t cl_line = 0;
+};
+
+struct VerifyReport {
+    std::size_t points = 0;        ///< cutter locations of the CL file
+    std::size_t matched = 0;       ///< met by a block end within tolerance
+    std::size_t missed = 0;        ///< not met, or only by a block end out of tolerance
+    std::size_t blocks = 0;        ///< blocks with words
+    std::size_t motions = 0;       ///< blocks that move
+    std::size_t intermediate = 0;  ///< block ends on the way from one CL point to the next
+    std::size_t links = 0;         ///< rapids outside operations: home, tool change, approach
+    std::size_t extra = 0;         ///< motions that lead nowhere in the CL file
+
+    Extreme max_tip_error_mm;    ///< at block ends, those out of tolerance included
+    Extreme max_axis_error_rad;  ///< the same
+    /// Between block ends, sampled as the control interpolates, against a straight tip and an axis on the great circle.
+    Extreme max_tip_between_mm;
+    Extreme max_axis_between_rad;
+
+    std::size_t limit_violations = 0;    ///< block ends with a rotary axis beyond its limits
+    bool rotary_limits_checked = true;   ///< false when blocks program A3, B3, C3: the values are the control's choice
+    bool linear_travel_checked = false;  ///< needs to know where the workpiece stands
+    bool compared = false;               ///< false without a CL file: only the program itself was looked at
+
+    /// Everything found, in the words of the shop floor; warnings of the reader included.
+    base::Diagnostics findings;
+    bool pass = false;  ///< no finding is an error
+};
+
+/// Reads `program` and, when `against` is given, compares it with that CL file: every CL point must be met in order by a
+/// block end, every feed motion must lie on the CL path; feed, rapid or feed, spindle, tool, coolant, tool length and work
+/// offset must be what the CL file and the machine file say. The points are found without any map from the writer.
+///
+/// Proves programmed geometry. The control may leave it by its own smoothing tolerance (CYCLE832, CTOL, G64x).
+/// Errors: when the program itself cannot be read (`nc.*`); findings are values in the report.
+[[nodiscard]] base::Result<VerifyReport> verifyProgram(std::istream& program, const std::string& program_name,
+                                                       const MachineFile& machine, const toolpath::ToolPath* against,
+                                                       const VerifyOptions& options = {});
+
+/// The report as a page of text, without the findings.
+[[nodiscard]] std::string toText(const VerifyReport& report);
+
+}  // namespace cusp::post::verify

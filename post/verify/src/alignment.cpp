@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The order of the questions asked of each block end is what makes this work; see the class.
+#include "alignment.hpp"
+
+#include <cusp/post/reader/move_sampler.hpp>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace cusp::post::verify {
+
+namespace {
+
+using reader::ExecutedMotion;
+using reader::MotionCode;
+
+/// How many dropped points in a row still let the comparison find its place again.
+constexpr std::size_t look_ahead = 64;
+/// Ends closer than this are the same printed point.
+constexpr double same_tip_mm = 1e-9;
+constexpr double same_axis_rad = 1e-12;
+/// Rounding of limits between degrees and radians.
+constexpr double limit_slack_rad = 1e-9;
+
+bool isRapid(const ExecutedMotion& motion) { return motion.code == MotionCode::Rapid; }
+
+bool standsStill(const ExecutedMotion& motion) {
+    return motion.start_pose && !motion.arc &&
+           difference(*motion.start_pose, *motion.end_pose).within({same_tip_mm, same_axis_rad}) &&
+           reader::rotaryTravel(motion) < same_axis_rad;
+}
+
+std::string distanceText(const PoseError& error, const Tolerance& tolerance, std::size_t cl_line) {
+    std::string text;
+    if (error.tip_mm > tolerance.tip_mm)
+        text = fmt::format("tip is {:.3g} mm from CL line {}, tolerance {:.3g} mm", error.tip_mm, cl_line,
+                           tolerance.tip_mm);
+    if (error.axis_rad > tolerance.axis_rad)
+        text += fmt::format("{}tool axis is {:.3g}° from CL line {}, tolerance {:.3g}°", text.empty() ? "" : "; ",
+                            base::degFromRad(error.axis_rad), cl_line, base::degFromRad(tolerance.axis_rad));
+    return text;
+}
+
+}  // namespace
+
+Alignment::Alignment(const MachineFile& machine, const ExpectedPath* expected, const VerifyOptions& options,
+                     const std::string& program_name, VerifyReport& report)
+    : chain_(machine.machine),
+      expected_(expected),
+      options_(options),
+      tolerance_{options.tip_tolerance_mm, options.axis_tolerance_rad},
+      report_(report),
+      findings_(report, program_name) {
+    process_limits_.feed_tolerance = options.feed_tolerance;
+    process_limits_.speed_tolerance_rpm = options.speed_tolerance_rpm;
+    if (options.check_work_offset) process_limits_.work_offset = machine.control.work_offset;
+}
+
+void Alignment::event(const reader::BlockPlace& place, const reader::ExecutedEvent& event) {
+    static_cast<void>(place);
+    static_cast<void>(event);
+}
+
+void Alignment::motion(const ExecutedMotion& motion) {
+    if (motion.vector_programmed) report_.rotary_limits_checked = false;
+    checkLimits(motion);
+    if (expected_ != nullptr) return compare(motion);
+    const bool idle = !isRapid(motion) && motion.state->spindle == reader::SpindleTurn::Off;
+    if (idle) findings_.warning("verify.spindle-off", motion.place, "the spindle is off in a feed move");
+}
+
+void Alignment::checkLimits(const ExecutedMotion& motion) {
+    for (std::size_t i = 0; i < chain_.rotaryCount(); ++i) {
+        const auto& value = motion.end.rotary_rad[i];
+        const machine::RotaryAxis& axis = chain_.rotaryAxis(i);
+        if (!value) continue;
+        const bool below = axis.min_rad && *value < *axis.min_rad - limit_slack_rad;
+        const bool above = axis.max_rad && *value > *axis.max_rad + limit_slack_rad;
+        if (!below && !above) continue;
+        ++report_.limit_violations;
+        findings_.error("verify.limit", motion.place,
+                        fmt::format("axis {} is at {:.6g}°, beyond its limit {:.6g}°", chain_.rotaryName(i),
+                                    base::degFromRad(*value), base::degFromRad(below ? *axis.min_rad : *axis.max_rad)));
+    }
+}
+
+void Alignment::compare(const ExecutedMotion& motion) {
+    if (!motion.end_pose) return withoutPose(motion);
+    if (meetsNext(motion)) return;
+    if (isRapid(motion) && atOpening() && !held_) {
+        const bool stays = standsStill(motion);
+        if ((stays || !onTheWay(motion)) && !meetsLater(motion)) link();
+        return;
+    }
+    if (onTheWay(motion) || meetsLater(motion)) return;
+    if (held_) {
+        displaced(*held_);
+        return compare(motion);
+    }
+    held_ = Held{motion.place, *motion.end_pose, isRapid(motion)};
+}
+
+void Alignment::withoutPose(const ExecutedMotion& motion) {
+    if (isRapid(motion)) {
+        passPointsAlreadyMet();
+        if (held_ && done()) {
+            extra(*held_);
+            held_.reset();
+        }
+        // A held block can only be the point before an opening; which of the two it was shows now.
+        if (held_ && next_ + 1 <= expected_->points.size() &&
+            (next_ + 1 == expected_->points.size() || expected_->points[next_ + 1].opens))
+            displaced(*held_);
+        if (atOpening()) return link();
+        ++report_.extra;
+        return findings_.error(
+            "verify.extra", motion.place,
+            fmt::format("this rapid leaves the path in the middle of an operation (before CL line {})",
+                        expected_->points[next_].line));
+    }
+    ++report_.extra;
+    findings_.error("verify.unplaced", motion.place,
+                    motion.machine_coordinates
+                        ? "a feed move in machine coordinates cannot be compared with the CL file"
+                    : motion.transformation
+                        ? "a feed move before all of X, Y, Z and the rotary axes are known"
+                        : "a feed move without TRAORI while rotary axes are away from zero, or with X, Y or Z unknown");
+}
+
+bool Alignment::meetsNext(const ExecutedMotion& motion) {
+    while (true) {
+        if (done()) return false;
+        if (difference(*motion.end_pose, expected_->points[next_].pose).within(tolerance_)) break;
+        const std::size_t before = next_;
+        if (!held_) passPointsAlreadyMet();
+        if (next_ == before) return false;
+    }
+    if (held_) extra(*held_);
+    held_.reset();
+    meet(motion, next_);
+    return true;
+}
+
+/// A CL point at the place where the path already stands needs no block.
+void Alignment::passPointsAlreadyMet() {
+    while (!done() && at_ && difference(*at_, expected_->points[next_].pose).within(tolerance_)) {
+        ++report_.matched;
+        ++next_;
+        fraction_ = 0.0;
+    }
+}
+
+bool Alignment::onTheWay(const ExecutedMotion& motion) {
+    if (done() || next_ == 0 || (!at_ && expected_->points[next_].opens)) return false;
+    const auto fraction = nextMove().fractionOf(*motion.end_pose, tolerance_);
+    if (!fraction || *fraction < fraction_ - 1e-9) return false;
+    if (held_) extra(*held_);
+    held_.reset();
+    const ExpectedPoint& point = expected_->points[next_];
+    if (standsStill(motion)) {
+        ++report_.extra;
+        findings_.error(
+            "verify.repeated", motion.place,
+            fmt::format("repeats the point before it, which the CL file has once (before CL line {})", point.line));
+        return true;
+    }
+    ++report_.intermediate;
+    checkKind(motion, point);
+    checkBetween(motion, *fraction);
+    checkTurns(motion, point.line);
+    if (!isRapid(motion))
+        checkProcess(motion, expected_->processes[point.process], point.line, process_limits_, findings_);
+    fraction_ = *fraction;
+    at_ = motion.end_pose;
+    return true;
+}
+
+bool Alignment::meetsLater(const ExecutedMotion& motion) {
+    const auto& points = expected_->points;
+    const bool rapids_only = isRapid(motion) && atOpening() && !held_;
+    for (std::size_t i = next_; i < std::min(points.size(), next_ + 1 + look_ahead); ++i) {
+        // A link may pass where the operation comes by later: it only stands for the rapids that begin the operation.
+        if (rapids_only && !points[i].rapid) return false;
+        if (i == next_ || !difference(*motion.end_pose, points[i].pose).within(tolerance_)) continue;
+        if (held_) displaced(*held_);
+        drop(i);
+        meet(motion, i);
+        return true;
+    }
+    return false;
+}
+
+void Alignment::meet(const ExecutedMotion& motion, std::size_t index) {
+    const ExpectedPoint& point = expected_->points[index];
+    const PoseError error = difference(*motion.end_pose, point.pose);
+    ++report_.matched;
+    raise(report_.max_tip_error_mm, error.tip_mm, motion.place, point.line);
+    raise(report_.max_axis_error_rad, error.axis_rad, motion.place, point.line);
+    next_ = index;
+    checkKind(motion, point);
+    if (index > 0 && at_) checkBetween(motion, 1.0);
+    checkTurns(motion, point.line);
+    if (!isRapid(motion))
+        checkProcess(motion, expected_->processes[point.process], point.line, process_limits_, findings_);
+    next_ = index + 1;
+    fraction_ = 0.0;
+    at_ = motion.end_pose;
+}
+
+void Alignment::link() {
+    ++report_.links;
+    at_.reset();
+}
+
+void Alignment::extra(const Held& held) {
+    ++report_.extra;
+    findings_.error("verify.extra", held.place,
+                    fmt::format("this {} leads nowhere in the CL file{}", held.rapid ? "rapid" : "feed move",
+                                done() ? std::string(", whose last point is met")
+                                       : fmt::format(" (before CL line {})", expected_->points[next_].line)));
+}
+
+/// The held block was meant for the next point.
+void Alignment::displaced(const Held& held) {
+    const ExpectedPoint& point = expected_->points[next_];
+    const PoseError error = difference(held.pose, point.pose);
+    ++report_.missed;
+    raise(report_.max_tip_error_mm, error.tip_mm, held.place, point.line);
+    raise(report_.max_axis_error_rad, error.axis_rad, held.place, point.line);
+    findings_.error("verify.displaced", held.place, distanceText(error, tolerance_, point.line));
+    ++next_;
+    fraction_ = 0.0;
+    at_.reset();
+    held_.reset();
+}
+
+void Alignment::drop(std::size_t until) {
+    for (; next_ < until; ++next_) {
+        ++report_.missed;
+        findings_.missing("verify.missed",
+                          fmt::format("CL line {}: no block ends at this point", expected_->points[next_].line));
+    }
+    at_.reset();
+}
+
+void Alignment::checkKind(const ExecutedMotion& motion, const ExpectedPoint& point) {
+    if (isRapid(motion) == point.rapid) return;
+    if (!isRapid(motion))
+        return findings_.error("verify.kind", motion.place,
+                               fmt::format("a feed move where CL line {} is a rapid", point.line));
+    const std::string text = fmt::format("a rapid (G0) where CL line {} is a feed move", point.line);
+    // The first point of an operation is reached from a home position the CL file knows nothing of.
+    if (point.opens && !at_) return findings_.warning("verify.approach", motion.place, text);
+    findings_.error("verify.kind", motion.place, text);
+}
+
+void Alignment::checkBetween(const ExecutedMotion& motion, double to) {
+    if (!motion.start_pose || next_ == 0 || !at_) return;
+    const ExpectedPoint& point = expected_->points[next_];
+    const PoseError stray = strayBetween(motion, chain_, nextMove(), fraction_, to);
+    raise(report_.max_tip_between_mm, stray.tip_mm, motion.place, point.line);
+    raise(report_.max_axis_between_rad, stray.axis_rad, motion.place, point.line);
+    if (stray.tip_mm > options_.between_tip_tolerance_mm)
+        findings_.error(
+            "verify.between-tip", motion.place,
+            fmt::format("between its ends the tip is up to {:.3g} mm off the move to CL line {}, tolerance {:.3g} mm",
+                        stray.tip_mm, point.line, options_.between_tip_tolerance_mm));
+    if (options_.between_axis_tolerance_rad && stray.axis_rad > *options_.between_axis_tolerance_rad)
+        findings_.error(
+            "verify.between-axis", motion.place,
+            fmt::format("between its ends the tool axis is up to {:.3g}° off the move to CL line {}, tolerance {:.3g}°",
+                        base::degFromRad(stray.axis_rad), point.line,
+                        base::degFromRad(*options_.between_axis_tolerance_rad)));
+}
+
+/// No cutting move needs more than half a turn of an axis: beyond it the winding is wrong, which no block end shows.
+void Alignment::checkTurns(const ExecutedMotion& motion, std::size_t cl_line) {
+    if (isRapid(motion) || reader::rotaryTravel(motion) <= std::numbers::pi + limit_slack_rad) return;
+    findings_.error(
+        "verify.winding", motion.place,
+        fmt::format(
+            "a rotary axis turns {:.4g}° in this feed move (CL line {}); more than half a turn is the long way round",
+            base::degFromRad(reader::rotaryTravel(motion)), cl_line));
+}
+
+void Alignment::finish() {
+    if (expected_ == nullptr) return;
+    if (!held_) passPointsAlreadyMet();
+    if (held_ && done())
+        extra(*held_);
+    else if (held_)
+        displaced(*held_);
+    drop(expected_->points.size());
+}
+
+}  // namespace cusp::post::verify

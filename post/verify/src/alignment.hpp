@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Finds, for each motion of a program, the CL point it belongs to, in order and without a map from the writer.
+#pragma once
+
+#include "between_ends.hpp"
+#include "expected_path.hpp"
+#include "findings.hpp"
+#include "process_check.hpp"
+
+#include <optional>
+
+namespace cusp::post::verify {
+
+/// The next CL point not yet met is k. A block end within tolerance of k meets it; one on the move from k−1 to k is on the
+/// way; a rapid outside an operation is a link. Otherwise a later point within reach is looked for (the ones before it were
+/// dropped), and failing that the block is held back until the next one shows whether it was point k displaced, or one
+/// block too many.
+class Alignment : public reader::ProgramSink {
+public:
+    Alignment(const MachineFile& machine, const ExpectedPath* expected, const VerifyOptions& options,
+              const std::string& program_name, VerifyReport& report);
+
+    void motion(const reader::ExecutedMotion& motion) override;
+    void event(const reader::BlockPlace& place, const reader::ExecutedEvent& event) override;
+    /// After the last block: what is still open.
+    void finish();
+
+private:
+    /// A block end that met nothing.
+    struct Held {
+        reader::BlockPlace place;
+        reader::ToolPose pose;
+        bool rapid = false;
+    };
+
+    void checkLimits(const reader::ExecutedMotion& motion);
+    void compare(const reader::ExecutedMotion& motion);
+    void withoutPose(const reader::ExecutedMotion& motion);
+    [[nodiscard]] bool meetsNext(const reader::ExecutedMotion& motion);
+    [[nodiscard]] bool onTheWay(const reader::ExecutedMotion& motion);
+    [[nodiscard]] bool meetsLater(const reader::ExecutedMotion& motion);
+    void meet(const reader::ExecutedMotion& motion, std::size_t index);
+    void passPointsAlreadyMet();
+    void link();
+    void extra(const Held& held);
+    void displaced(const Held& held);
+    void drop(std::size_t until);
+    void checkKind(const reader::ExecutedMotion& motion, const ExpectedPoint& point);
+    void checkBetween(const reader::ExecutedMotion& motion, double to);
+    void checkTurns(const reader::ExecutedMotion& motion, std::size_t cl_line);
+    [[nodiscard]] bool done() const { return next_ >= expected_->points.size(); }
+    [[nodiscard]] bool atOpening() const { return done() || expected_->points[next_].opens; }
+    [[nodiscard]] ExpectedMove nextMove() const {
+        return {expected_->points[next_ - 1].pose, expected_->points[next_].pose};
+    }
+
+    const reader::ForwardChain chain_;
+    const ExpectedPath* expected_;
+    const VerifyOptions& options_;
+    const Tolerance tolerance_;
+    ProcessLimits process_limits_;
+    VerifyReport& report_;
+    Findings findings_;
+
+    std::size_t next_ = 0;
+    double fraction_ = 0.0;               ///< how far the path has come from point next_−1 to next_
+    std::optional<reader::ToolPose> at_;  ///< where the path stands: the last block end on it
+    std::optional<Held> held_;
+};
+
+}  // namespace cusp::post::verify

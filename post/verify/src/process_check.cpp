@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// One comparison per kind of state; each says nothing, or what differs.
+#include "process_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cusp::post::verify {
+
+namespace {
+
+using base::Severity;
+using reader::Feed;
+using reader::ModalSnapshot;
+using reader::SpindleTurn;
+using toolpath::CoolantCommand;
+using toolpath::FeedRate;
+using toolpath::SpindleCommand;
+
+/// A path shorter than this says too little about its inverse-time feed.
+constexpr double shortest_timed_path_mm = 0.1;
+
+std::optional<double> pathLength(const reader::ExecutedMotion& motion) {
+    if (motion.arc) {
+        const double radius = (motion.arc->start_radius_mm + motion.arc->end_radius_mm) / 2.0;
+        return std::hypot(radius * motion.arc->sweep_rad, motion.arc->height_mm);
+    }
+    if (!motion.start_pose || !motion.end_pose) return std::nullopt;
+    return reader::norm(motion.end_pose->tip_mm - motion.start_pose->tip_mm);
+}
+
+/// What the program's F means in the unit the CL file uses; nothing when that cannot be told.
+std::optional<double> feedAsExpected(const reader::ExecutedMotion& motion, FeedRate::Unit unit) {
+    const Feed& feed = motion.state->feed;
+    if (!feed.value) return std::nullopt;
+    double per_minute = *feed.value;
+    if (feed.mode == Feed::Mode::InverseTime) {
+        const auto length = pathLength(motion);
+        if (!length || *length < shortest_timed_path_mm) return std::nullopt;
+        per_minute *= *length;
+    } else if (feed.mode == Feed::Mode::PerRevolution) {
+        if (unit == FeedRate::Unit::MmPerRev) return feed.value;
+        per_minute *= motion.state->spindle_rpm;
+    }
+    if (unit == FeedRate::Unit::MmPerS) return per_minute;
+    if (motion.state->spindle_rpm <= 0.0) return std::nullopt;
+    return per_minute / motion.state->spindle_rpm;
+}
+
+std::string feedProblem(const reader::ExecutedMotion& motion, const ExpectedProcess& expected, double tolerance) {
+    if (!expected.feed) return {};
+    const bool per_minute = expected.feed->unit == FeedRate::Unit::MmPerS;
+    const double wanted = per_minute ? base::mmPerMinFromMmPerS(expected.feed->value) : expected.feed->value;
+    const auto actual = feedAsExpected(motion, expected.feed->unit);
+    if (!actual || std::abs(*actual - wanted) <= tolerance * std::abs(wanted)) return {};
+    return fmt::format("feed is {0:.6g} {2}, the CL file has {1:.6g} {2}", *actual, wanted,
+                       per_minute ? "mm/min" : "mm/rev");
+}
+
+std::string turnName(SpindleTurn turn) {
+    return turn == SpindleTurn::Off         ? "off"
+           : turn == SpindleTurn::Clockwise ? "clockwise (M3)"
+                                            : "counter-clockwise (M4)";
+}
+
+SpindleTurn toReader(SpindleCommand::Turn turn) {
+    return turn == SpindleCommand::Turn::Off         ? SpindleTurn::Off
+           : turn == SpindleCommand::Turn::Clockwise ? SpindleTurn::Clockwise
+                                                     : SpindleTurn::CounterClockwise;
+}
+
+std::string turnProblem(const ModalSnapshot& state, const ExpectedProcess& expected) {
+    const SpindleTurn wanted = toReader(expected.turn);
+    if (state.spindle == wanted) return {};
+    return fmt::format("the spindle is {} in a feed move, the CL file has it {}", turnName(state.spindle),
+                       turnName(wanted));
+}
+
+std::string speedProblem(const ModalSnapshot& state, const ExpectedProcess& expected, double tolerance_rpm) {
+    if (!expected.rpm || state.spindle == SpindleTurn::Off || expected.turn == SpindleCommand::Turn::Off) return {};
+    if (std::abs(state.spindle_rpm - *expected.rpm) <= tolerance_rpm) return {};
+    return fmt::format("the spindle runs at {:.6g} rpm, the CL file has {:.6g} rpm", state.spindle_rpm, *expected.rpm);
+}
+
+bool sameText(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.begin(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string toolProblem(const ModalSnapshot& state, const ExpectedProcess& expected) {
+    if (!expected.tool_number && expected.tool_name.empty()) return {};
+    const std::string number = expected.tool_number ? fmt::format("{}", *expected.tool_number) : std::string();
+    if (!state.tool.empty() && (state.tool == number || sameText(state.tool, expected.tool_name))) return {};
+    const std::string wanted = expected.tool_name.empty() ? number
+                               : number.empty()           ? fmt::format("\"{}\"", expected.tool_name)
+                                                          : fmt::format("{} \"{}\"", number, expected.tool_name);
+    if (state.tool.empty()) return fmt::format("no tool has been changed in, the CL file has tool {}", wanted);
+    return fmt::format("tool \"{}\" is in the spindle, the CL file has tool {}", state.tool, wanted);
+}
+
+std::string coolantName(bool mist, bool flood) {
+    return mist && flood ? "mist and flood (M7, M8)" : mist ? "mist (M7)" : flood ? "flood (M8)" : "off";
+}
+
+std::string coolantProblem(const ModalSnapshot& state, const ExpectedProcess& expected) {
+    if (!expected.coolant) return {};
+    bool good = false;
+    std::string_view wanted;
+    switch (*expected.coolant) {
+        case CoolantCommand::Kind::Off:
+            good = !state.mist && !state.flood;
+            wanted = "off";
+            break;
+        case CoolantCommand::Kind::Flood:
+            good = state.flood && !state.mist;
+            wanted = "flood";
+            break;
+        case CoolantCommand::Kind::Mist:
+            good = state.mist && !state.flood;
+            wanted = "mist";
+            break;
+        // Which M function coolant through the tool has is the machine builder's choice.
+        case CoolantCommand::Kind::Through:
+            good = state.mist || state.flood;
+            wanted = "through the tool";
+            break;
+    }
+    if (good) return {};
+    return fmt::format("coolant is {}, the CL file has it {}", coolantName(state.mist, state.flood), wanted);
+}
+
+std::string offsetProblem(const ModalSnapshot& state, const std::string& wanted) {
+    if (wanted.empty() || state.work_offset == wanted || (wanted == "G500" && state.work_offset.empty())) return {};
+    return fmt::format("runs in {}, the machine file's work offset is {}",
+                       state.work_offset.empty() ? "no work offset" : state.work_offset, wanted);
+}
+
+}  // namespace
+
+void checkProcess(const reader::ExecutedMotion& motion, const ExpectedProcess& expected, std::size_t cl_line,
+                  const ProcessLimits& limits, Findings& findings) {
+    const ModalSnapshot& state = *motion.state;
+    const auto report = [&](Severity severity, std::string_view code, const std::string& text) {
+        findings.state(severity, code, motion.place, text, cl_line);
+    };
+    report(Severity::Error, "verify.feed", feedProblem(motion, expected, limits.feed_tolerance));
+    const bool nobody_turns = state.spindle == SpindleTurn::Off && expected.turn == SpindleCommand::Turn::Off;
+    report(Severity::Warning, "verify.spindle-off",
+           nobody_turns ? "the spindle is off in a feed move, as in the CL file" : std::string());
+    report(Severity::Error, "verify.spindle-direction", turnProblem(state, expected));
+    report(Severity::Error, "verify.spindle-speed", speedProblem(state, expected, limits.speed_tolerance_rpm));
+    report(Severity::Error, "verify.tool", toolProblem(state, expected));
+    report(Severity::Error, "verify.tool-length",
+           state.cutting_edge == 0 ? "the tool length is not applied (D0) in a feed move" : std::string());
+    report(Severity::Error, "verify.coolant", coolantProblem(state, expected));
+    report(Severity::Error, "verify.work-offset", offsetProblem(state, limits.work_offset));
+}
+
+}  // namespace cusp::post::verify

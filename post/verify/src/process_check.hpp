@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Feed, spindle, tool, coolant, tool length and work offset of a cutting block against the CL file.
+#pragma once
+
+#include "expected_path.hpp"
+#include "findings.hpp"
+
+namespace cusp::post::verify {
+
+struct ProcessLimits {
+    double feed_tolerance = 0.0;
+    double speed_tolerance_rpm = 0.0;
+    std::string work_offset;  ///< empty: not checked
+};
+
+/// For feed motions: rapids may run before the spindle is up.
+void checkProcess(const reader::ExecutedMotion& motion, const ExpectedProcess& expected, std::size_t cl_line,
+                  const ProcessLimits& limits, Findings& findings);
+
+}  // namespace cusp::post::verify
