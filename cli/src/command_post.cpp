@@ -7,6 +7,7 @@
 #include "job_file.hpp"
 #include "machine_lookup.hpp"
 #include "post_text.hpp"
+#include "progress_bar.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/json_report.hpp>
@@ -16,6 +17,7 @@
 #include <cusp/post/writer/program_planner.hpp>
 #include <cusp/post/writer/sinumerik_writer.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +25,9 @@
 namespace cusp::cli {
 
 namespace {
+
+/// How often the progress bar is asked to look.
+constexpr std::uint64_t records_per_look = 4096;
 
 struct Flags {
     std::string cl_file;
@@ -117,9 +122,12 @@ ExitCode runPost(const Flags& flags) {
     post::SinumerikWriter writer([&file](std::string_view text) { file.write(text); }, machine->file,
                                  headOf(flags, *options, *machine));
     post::ProgramPlanner planner(machine->file, machine->model, *options, flags.cl_file, writer, planning);
+    ProgressBar bar("posting");
+    std::uint64_t records = 0;
     for (toolpath::ClRecord record; input->reader().next(record);) {
         if (interrupted()) return ExitCode::Interrupted;
         planner.take(record);
+        if (++records % records_per_look == 0) bar.show(input->text().position(), input->text().size());
     }
     outcome.summary = planner.finish();
     outcome.blocks = writer.finish();

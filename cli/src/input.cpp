@@ -41,7 +41,15 @@ base::Result<TextInput> TextInput::open(const std::string& path) {
     input.file_ = std::make_unique<std::ifstream>(path, std::ios::binary);
     if (!*input.file_) return base::fail("io.open", std::string("cannot open: ") + std::strerror(errno), where);
     input.stream_ = input.file_.get();
+    const auto bytes = std::filesystem::file_size(path, ignored);
+    if (!ignored) input.size_ = bytes;
     return input;
+}
+
+std::uint64_t TextInput::position() {
+    if (!file_) return 0;
+    const auto at = file_->tellg();
+    return at < 0 ? size_ : static_cast<std::uint64_t>(at);
 }
 
 base::Result<ClInput> ClInput::open(const std::string& path, const toolpath::ClReaderOptions& options) {

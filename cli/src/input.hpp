@@ -6,6 +6,7 @@
 #include <cusp/base/result.hpp>
 #include <cusp/toolpath/cl_reader.hpp>
 
+#include <cstdint>
 #include <fstream>
 #include <istream>
 #include <memory>
@@ -26,6 +27,9 @@ public:
     /// Error `io.open` with the system's reason.
     [[nodiscard]] static base::Result<TextInput> open(const std::string& path);
     [[nodiscard]] std::istream& stream() { return *stream_; }
+    /// Bytes in the file, 0 when that is not known; and how many of them were read.
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    [[nodiscard]] std::uint64_t position();
     /// For messages.
     [[nodiscard]] const std::string& name() const { return name_; }
 
@@ -34,6 +38,7 @@ private:
     std::unique_ptr<std::ifstream> file_;
     std::istream* stream_ = nullptr;
     std::string name_;
+    std::uint64_t size_ = 0;
 };
 
 class ClInput {
@@ -41,6 +46,7 @@ public:
     /// Errors as `TextInput::open`.
     [[nodiscard]] static base::Result<ClInput> open(const std::string& path, const toolpath::ClReaderOptions& options);
     [[nodiscard]] toolpath::ClReader& reader() { return *reader_; }
+    [[nodiscard]] TextInput& text() { return text_; }
 
 private:
     explicit ClInput(TextInput text) : text_(std::move(text)) {}
