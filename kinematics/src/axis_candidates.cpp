@@ -131,14 +131,15 @@ void AxisPlanner::reportProblems(const Layer& layer, const PlannedAxes& out) {
     const base::Location where{.file = options_.file_name, .line = layer.line, .column = 0, .key = {}};
     if (!out.reached) {
         const std::string miss = degreeText(layer.solved.miss_rad);
-        report_.error("kinematics.axis-unreachable",
-                      machine_.rotaryCount() == 0
-                          ? fmt::format("the tool axis at CL line {} leans {}° from the spindle, and the machine has no "
-                                        "rotary axis",
-                                        layer.line, miss)
-                          : fmt::format("the tool axis at CL line {} is {}° beyond what the rotary axes can reach",
-                                        layer.line, miss),
-                      where);
+        report_.error(
+            "kinematics.axis-unreachable",
+            machine_.rotaryCount() == 0
+                ? fmt::format("the tool axis at CL line {} leans {}° from the spindle, and the machine has no "
+                              "rotary axis",
+                              layer.line, miss)
+                : fmt::format("the tool axis at CL line {} is {}° beyond what the rotary axes can reach", layer.line,
+                              miss),
+            where);
     }
     for (std::size_t i = 0; i < machine_.rotaryCount() && !out.within_limits; ++i) {
         const AxisRange& range = machine_.rotaryRange(i);

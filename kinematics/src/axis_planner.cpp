@@ -69,7 +69,8 @@ AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const RotaryValues& 
     const double first = was_free ? 0.0 : turned(0, from[0], to[0]);
     const double second = turned(1, from[1], to[1]);
     double time_s = std::max(first * seconds_per_rad_[0], second * seconds_per_rad_[1]);
-    if (std::max(first, second) >= options_.rewind_threshold_rad && isRewind(layer, {was_free ? to[0] : from[0], from[1]}, to))
+    if (std::max(first, second) >= options_.rewind_threshold_rad &&
+        isRewind(layer, {was_free ? to[0] : from[0], from[1]}, to))
         time_s += options_.rewind_penalty_s;
     return {.time_ns = nano(time_s),
             .travel_nrad = nano(first + second),
@@ -178,8 +179,7 @@ std::size_t AxisPlanner::settleFreeAngle(std::vector<std::uint32_t>& chosen, std
 void AxisPlanner::commit(std::size_t layer_count) {
     std::vector<std::uint32_t> chosen = traceBack();
     layer_count = settleFreeAngle(chosen, layer_count);
-    for (std::size_t l = 0; l < layer_count; ++l)
-        handOut(layers_[l], states_[layers_[l].first + chosen[l]].rotary_rad);
+    for (std::size_t l = 0; l < layer_count; ++l) handOut(layers_[l], states_[layers_[l].first + chosen[l]].rotary_rad);
     dropFront(layer_count, chosen[layer_count - 1]);
 }
 

@@ -85,7 +85,8 @@ private:
             const AxisRange& range = machine_.rotaryRange(i);
             const std::vector<double> positions = machine_.windings(i, wrapAngle(pose_.rotary_rad[i]));
             for (const double position : positions)
-                if (range.excess(position) > 0.0 || std::abs(wrapAngle(position - pose_.rotary_rad[i])) > 1e-11) wrong += 1.0;
+                if (range.excess(position) > 0.0 || std::abs(wrapAngle(position - pose_.rotary_rad[i])) > 1e-11)
+                    wrong += 1.0;
             double expected = range.endless ? 1.0 : 0.0;
             for (int turns = -12; turns <= 12 && !range.endless; ++turns)
                 if (range.excess(wrapAngle(pose_.rotary_rad[i]) + turns * turn_rad) <= 1e-12) expected += 1.0;
@@ -101,8 +102,8 @@ private:
             const AxisSolutions solved = machine_.solveAxis(target);
             if (solved.miss_rad > 0.0) continue;
             const RotaryValues any{sampler_.uniform(-pi, pi), solved.branch[0][1]};
-            put(pole_, solved.pole ? angleBetween(machine_.toolAxis(any), target)
-                                   : std::numeric_limits<double>::infinity());
+            put(pole_,
+                solved.pole ? angleBetween(machine_.toolAxis(any), target) : std::numeric_limits<double>::infinity());
         }
     }
 
@@ -128,10 +129,9 @@ private:
         for (int i = 0; i <= steps; ++i) {
             // Turning the first axis reaches every axis at the same angle from it, so only that angle can miss.
             const Vector3 axis = machine_.toolAxis({0.0, machine_.rotaryCount() > 1 ? turn_rad * i / steps : 0.0});
-            nearest = std::min(nearest, machine_.rotaryCount() == 0
-                                            ? angleBetween(axis, target)
-                                            : std::abs(angleBetween(firstDirection(), axis) -
-                                                       angleBetween(firstDirection(), target)));
+            nearest = std::min(nearest, machine_.rotaryCount() == 0 ? angleBetween(axis, target)
+                                                                    : std::abs(angleBetween(firstDirection(), axis) -
+                                                                               angleBetween(firstDirection(), target)));
         }
         const double stated = machine_.solveAxis(target).miss_rad;
         // The sweep is as fine as its step; where the target is missed, the range ends at an extremum, known to step².
@@ -181,8 +181,8 @@ private:
 
 bool LawReport::passes() const {
     // A law that never applied (the pole of a three-axis machine) is not broken.
-    return poses > 0 && std::all_of(laws.begin(), laws.end(),
-                                    [](const Law& law) { return law.checked == 0 || law.passes(); });
+    return poses > 0 &&
+           std::all_of(laws.begin(), laws.end(), [](const Law& law) { return law.checked == 0 || law.passes(); });
 }
 
 LawReport runLaws(const Machine& machine, std::uint64_t seed, std::uint64_t poses) {
@@ -198,9 +198,10 @@ std::vector<AnchorReport> checkAnchors(const Machine& machine) {
         for (std::size_t i = 0; i < machine.rotaryCount(); ++i)
             if (const auto found = anchor.rotary_rad.find(machine.rotaryNames()[i]); found != anchor.rotary_rad.end())
                 rotary_rad[i] = found->second;
-        reports.push_back({.source = anchor.source,
-                           .error_rad = angleBetween(machine.toolAxis(rotary_rad), geometry::toVector(anchor.tool_axis)),
-                           .tolerance_rad = anchor.tolerance_rad});
+        reports.push_back(
+            {.source = anchor.source,
+             .error_rad = angleBetween(machine.toolAxis(rotary_rad), geometry::toVector(anchor.tool_axis)),
+             .tolerance_rad = anchor.tolerance_rad});
     }
     return reports;
 }

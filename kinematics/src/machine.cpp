@@ -27,7 +27,8 @@ Machine::Machine(machine::MachineDefinition definition)
         if (const auto linear = definition_.linear.find(name); linear != definition_.linear.end()) {
             assert(linear_count < 3);
             linear_names_[linear_count] = name;
-            linear_range_[linear_count] = {.endless = false, .min = linear->second.min_mm, .max = linear->second.max_mm};
+            linear_range_[linear_count] = {
+                .endless = false, .min = linear->second.min_mm, .max = linear->second.max_mm};
             chain_.push_back({.is_rotary = false,
                               .index = linear_count++,
                               .direction = geometry::toVector(linear->second.direction),
@@ -58,8 +59,7 @@ RigidTransform Machine::workpieceFromTool(const AxisValues& values, double tool_
     Vector3 translation = Vector3::Zero();
     for (const Joint& joint : chain_) {
         if (joint.is_rotary) {
-            const Matrix3 turn =
-                Eigen::AngleAxisd(values.rotary_rad[joint.index], joint.direction).toRotationMatrix();
+            const Matrix3 turn = Eigen::AngleAxisd(values.rotary_rad[joint.index], joint.direction).toRotationMatrix();
             translation += rotation * (joint.point - turn * joint.point);
             rotation = rotation * turn;
         } else {

@@ -37,10 +37,9 @@ double PoseSampler::rotaryPosition(std::size_t i, std::uint64_t kind) {
 
 void PoseSampler::moveToPole(AxisValues& values) {
     const AxisSolutions pole = machine_.solveAxis(
-        machine_.rotaryCount() > 0 ? geometry::toVector(machine_.definition()
-                                                            .rotary.at(machine_.rotaryNames().front())
-                                                            .direction)
-                                   : machine_.toolAxis({}));
+        machine_.rotaryCount() > 0
+            ? geometry::toVector(machine_.definition().rotary.at(machine_.rotaryNames().front()).direction)
+            : machine_.toolAxis({}));
     if (!pole.pole || machine_.rotaryCount() < 2) return;
     const double beside = random_.chance(0.3) ? 0.0 : std::pow(10.0, uniform(-15.0, -1.0));
     const double angle = pole.branch[0][1] + (random_.chance(0.5) ? beside : -beside);

@@ -91,7 +91,8 @@ TEST(AxisPlanner, FindsTheShortestOfAllWays) {
                                     : random.uniform(machine.rotaryRange(i).min, machine.rotaryRange(i).max);
                 const Vector3 axis = machine.toolAxis(values);
                 candidates.emplace_back();
-                for (const AxisValues& solution : machine.inverse({.tip_mm = Vector3::Zero(), .axis = axis}, 0.0).values)
+                for (const AxisValues& solution :
+                     machine.inverse({.tip_mm = Vector3::Zero(), .axis = axis}, 0.0).values)
                     candidates.back().push_back(solution.rotary_rad);
                 path.push_back({.axis = axis, .line = static_cast<std::uint32_t>(path.size()), .cutting = false});
             }
@@ -288,11 +289,11 @@ std::vector<AxisPoint> wander(std::uint64_t path_seed, std::size_t count) {
     std::vector<AxisPoint> path;
     Vector3 axis = Vector3::UnitZ();
     while (path.size() < count) {
-        const Vector3 moved = axis + 0.15 * Vector3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+        const Vector3 moved =
+            axis + 0.15 * Vector3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
         axis = moved[2] > 0.1 ? Vector3(moved.normalized()) : Vector3::UnitZ();
-        path.push_back({.axis = axis,
-                        .line = static_cast<std::uint32_t>(path.size() + 1),
-                        .cutting = random.chance(0.95)});
+        path.push_back(
+            {.axis = axis, .line = static_cast<std::uint32_t>(path.size() + 1), .cutting = random.chance(0.95)});
     }
     return path;
 }
@@ -331,7 +332,8 @@ TEST(AxisPlanner, IsNeverWorseForAWindowThatCoversThePath) {
         return time_s;
     };
     const double whole = cost(4000);
-    for (const std::size_t window : {2U, 10U, 100U, 1000U}) EXPECT_LE(whole, cost(window) + 1e-5) << "window " << window;
+    for (const std::size_t window : {2U, 10U, 100U, 1000U})
+        EXPECT_LE(whole, cost(window) + 1e-5) << "window " << window;
     EXPECT_LT(whole, cost(2) - 1.0) << "the window makes no difference on this path, so it tests nothing";
 }
 
@@ -358,9 +360,8 @@ TEST(PlannerOptions, NameWhatIsWrong) {
     options.rewind_penalty_s = -1.0;
     const base::Diagnostics report = options.check();
     ASSERT_EQ(report.errorCount(), 2U);
-    EXPECT_EQ(base::toText(report),
-              "error: window_points is 1; it must be at least 2 [kinematics.option]\n"
-              "error: rewind_penalty_s is -1; it must lie in 0 to 3600 [kinematics.option]\n");
+    EXPECT_EQ(base::toText(report), "error: window_points is 1; it must be at least 2 [kinematics.option]\n"
+                                    "error: rewind_penalty_s is -1; it must lie in 0 to 3600 [kinematics.option]\n");
 }
 
 }  // namespace

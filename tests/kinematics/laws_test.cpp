@@ -36,7 +36,8 @@ TEST_P(ShippedMachines, ObeyTheLaws) { expectLawful(Machine(shippedMachine(GetPa
 
 TEST_P(ShippedMachines, AgreeWithTheirAnchors) {
     for (const AnchorReport& anchor : checkAnchors(Machine(shippedMachine(GetParam()))))
-        EXPECT_TRUE(anchor.passes()) << anchor.source << ": off by " << base::degFromRad(anchor.error_rad) << " degrees";
+        EXPECT_TRUE(anchor.passes()) << anchor.source << ": off by " << base::degFromRad(anchor.error_rad)
+                                     << " degrees";
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, ShippedMachines, testing::ValuesIn(shippedMachineNames()), [](const auto& machine) {
@@ -47,9 +48,8 @@ INSTANTIATE_TEST_SUITE_P(Machines, ShippedMachines, testing::ValuesIn(shippedMac
 });
 
 TEST(ShippedMachineSet, HasTheMachinesPromised) {
-    EXPECT_EQ(shippedMachineNames(),
-              (std::vector<std::string>{"fooke-endura-ca", "haas-umc-bc", "head-c200-a95", "nutating-45", "three-axis",
-                                        "trunnion-ac"}));
+    EXPECT_EQ(shippedMachineNames(), (std::vector<std::string>{"fooke-endura-ca", "haas-umc-bc", "head-c200-a95",
+                                                               "nutating-45", "three-axis", "trunnion-ac"}));
 }
 
 TEST(Anchors, AreThereWhereAPoseIsKnown) {
@@ -74,9 +74,10 @@ TEST(Anchors, CatchAWrongSign) {
 
 TEST(Laws, HoldForSkewAxesWithOffsets) {
     // Nothing at right angles, nothing through the origin, linear axes between the rotary ones, on either side of base.
-    const std::vector<std::vector<std::string>> chains{
-        {"workpiece", "base", "X", "Y", "Z", "P", "Q", "tool"}, {"workpiece", "P", "base", "X", "Y", "Z", "Q", "tool"},
-        {"workpiece", "P", "Q", "base", "X", "Y", "Z", "tool"}, {"workpiece", "X", "P", "base", "Y", "Q", "Z", "tool"}};
+    const std::vector<std::vector<std::string>> chains{{"workpiece", "base", "X", "Y", "Z", "P", "Q", "tool"},
+                                                       {"workpiece", "P", "base", "X", "Y", "Z", "Q", "tool"},
+                                                       {"workpiece", "P", "Q", "base", "X", "Y", "Z", "tool"},
+                                                       {"workpiece", "X", "P", "base", "Y", "Q", "Z", "tool"}};
     base::Random random(seed);
     const auto direction = [&] { return Vector3(random.normal(), random.normal(), random.normal()).normalized(); };
     for (int number = 0; number < 12; ++number) {
@@ -114,9 +115,7 @@ TEST(Laws, GiveTheSameReportForTheSameSeed) {
     EXPECT_NE(a.laws[0].worst, runLaws(machine, 8, 300).laws[0].worst);
 }
 
-TEST(Laws, AreBrokenByNoPosesAtAll) {
-    EXPECT_FALSE(runLaws(Machine(shippedMachine("three-axis")), seed, 0).passes());
-}
+TEST(Laws, AreBrokenByNoPosesAtAll) { EXPECT_FALSE(runLaws(Machine(shippedMachine("three-axis")), seed, 0).passes()); }
 
 }  // namespace
 }  // namespace cusp::kinematics::test

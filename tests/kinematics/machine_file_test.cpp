@@ -65,13 +65,13 @@ TEST(MachineFile, ListsWhatNoSourceSpeaksOf) {
     EXPECT_EQ(machine::unknownProvenance(shippedMachine("three-axis")),
               (std::vector<std::string>{"chain", "linear.X", "linear.Y", "linear.Z", "spindle"}));
     EXPECT_EQ(machine::unknownProvenance(shippedMachine("haas-umc-bc")),
-              (std::vector<std::string>{
-                  "linear.X", "linear.Y", "linear.Z", "rotary.B.point_mm", "rotary.B.winding", "rotary.B.min_deg",
-                  "rotary.B.max_deg", "rotary.B.home_deg", "rotary.B.max_velocity_deg_per_s",
-                  "rotary.B.max_acceleration_deg_per_s2", "rotary.B.max_jerk_deg_per_s3", "rotary.C.point_mm",
-                  "rotary.C.winding", "rotary.C.home_deg", "rotary.C.max_velocity_deg_per_s",
-                  "rotary.C.max_acceleration_deg_per_s2", "rotary.C.max_jerk_deg_per_s3", "spindle.gauge_point_mm",
-                  "spindle.max_speed_rpm"}));
+              (std::vector<std::string>{"linear.X", "linear.Y", "linear.Z", "rotary.B.point_mm", "rotary.B.winding",
+                                        "rotary.B.min_deg", "rotary.B.max_deg", "rotary.B.home_deg",
+                                        "rotary.B.max_velocity_deg_per_s", "rotary.B.max_acceleration_deg_per_s2",
+                                        "rotary.B.max_jerk_deg_per_s3", "rotary.C.point_mm", "rotary.C.winding",
+                                        "rotary.C.home_deg", "rotary.C.max_velocity_deg_per_s",
+                                        "rotary.C.max_acceleration_deg_per_s2", "rotary.C.max_jerk_deg_per_s3",
+                                        "spindle.gauge_point_mm", "spindle.max_speed_rpm"}));
     machine::MachineDefinition known = shippedMachine("three-axis");
     known.sources.push_back({.keys = {"chain", "linear", "spindle"}, .text = "a manual"});
     EXPECT_TRUE(machine::unknownProvenance(known).empty());

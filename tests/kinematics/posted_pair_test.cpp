@@ -123,7 +123,8 @@ TEST_F(PostedPair, PlannerTakesOneBranchAllAlongAsThePostDid) {
     EXPECT_EQ(count, 348U);
     EXPECT_EQ(same_branch, 348U);
     std::cout << "planner takes the posted branch at " << same_branch << " of " << count << " points; C travel "
-              << degFromRad(planner.summary().travel_rad[0]) << " degrees, posted " << degFromRad(posted_travel) << "\n";
+              << degFromRad(planner.summary().travel_rad[0]) << " degrees, posted " << degFromRad(posted_travel)
+              << "\n";
     EXPECT_LE(planner.summary().travel_rad[0], posted_travel + radFromDeg(0.1));
 }
 

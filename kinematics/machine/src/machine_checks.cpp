@@ -58,10 +58,10 @@ void checkChainEnds(const MachineDefinition& machine, const TomlNode& root, Diag
     if (chain.empty() || chain.back() != "tool" || std::count(chain.begin(), chain.end(), "tool") != 1)
         report.error("machine.chain-end", "the chain must end with \"tool\" and name it once", where);
     if (const auto count = std::count(chain.begin(), chain.end(), "base"); count != 1)
-        report.error("machine.chain-base",
-                     fmt::format("the chain must name \"base\", the standing part, exactly once; it does so {} times",
-                                 count),
-                     where);
+        report.error(
+            "machine.chain-base",
+            fmt::format("the chain must name \"base\", the standing part, exactly once; it does so {} times", count),
+            where);
 }
 
 void checkChainNames(const MachineDefinition& machine, const TomlNode& root, Diagnostics& report) {
@@ -84,8 +84,7 @@ void checkChainNames(const MachineDefinition& machine, const TomlNode& root, Dia
                          fmt::format("axis \"{0}\" has neither a [linear.{0}] nor a [rotary.{0}] table", name),
                          at(root, "chain"));
         if (is_linear && is_rotary)
-            report.error("machine.axis-twice",
-                         fmt::format("axis \"{}\" is defined both as linear and as rotary", name),
+            report.error("machine.axis-twice", fmt::format("axis \"{}\" is defined both as linear and as rotary", name),
                          at(root, "rotary", name));
     }
     const auto unused = [&](std::string_view table, const std::string& name) {
@@ -196,8 +195,8 @@ void checkRotaryAxis(const RotaryAxis& axis, const TomlNode& table, Diagnostics&
     if (axis.winding == RotaryAxis::Winding::Endless) {
         for (const auto& [key, limit] : {std::pair{"min_deg", axis.min_rad}, std::pair{"max_deg", axis.max_rad}})
             if (limit)
-                report.error("machine.limits-endless",
-                             fmt::format("an axis with winding = \"endless\" has no {}", key), at(table, key));
+                report.error("machine.limits-endless", fmt::format("an axis with winding = \"endless\" has no {}", key),
+                             at(table, key));
         return;
     }
     for (const auto& [key, limit] : {std::pair{"min_deg", axis.min_rad}, std::pair{"max_deg", axis.max_rad}})

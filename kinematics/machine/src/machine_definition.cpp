@@ -24,10 +24,11 @@ constexpr FieldRules angle_limit{.min = -3600.0, .max = 3600.0};
 Section<LinearAxis> linearSection() {
     Section<LinearAxis> section("A linear axis.");
     section
-        .field("direction", &LinearAxis::direction,
-               "Direction the tool moves in, relative to the workpiece, when the axis moves positively (ISO 841), in the "
-               "machine frame. Normalised on reading.",
-               base::required())
+        .field(
+            "direction", &LinearAxis::direction,
+            "Direction the tool moves in, relative to the workpiece, when the axis moves positively (ISO 841), in the "
+            "machine frame. Normalised on reading.",
+            base::required())
         .field("min_mm", &LinearAxis::min_mm, "Lower end of travel.", base::required())
         .field("max_mm", &LinearAxis::max_mm, "Upper end of travel.", base::required())
         .field("home_mm", &LinearAxis::home_mm, "Home position, within the travel.", base::required())
@@ -43,10 +44,11 @@ Section<LinearAxis> linearSection() {
 Section<RotaryAxis> rotarySection() {
     Section<RotaryAxis> section("A rotary axis.");
     section
-        .field("direction", &RotaryAxis::direction,
-               "Axis about which the tool turns right-handedly, relative to the workpiece, when the axis moves positively "
-               "(ISO 841), in the machine frame with all axes at zero. Normalised on reading.",
-               base::required())
+        .field(
+            "direction", &RotaryAxis::direction,
+            "Axis about which the tool turns right-handedly, relative to the workpiece, when the axis moves positively "
+            "(ISO 841), in the machine frame with all axes at zero. Normalised on reading.",
+            base::required())
         .field("point_mm", &RotaryAxis::point_mm, "A point on the axis, machine frame, all axes at zero.",
                base::required())
         .choice("winding", &RotaryAxis::winding,
@@ -106,9 +108,10 @@ Section<MachineDefinition> buildMachineSection() {
     section.field("schema", &MachineDefinition::schema, "Version of this file format; 1.", base::required())
         .field("name", &MachineDefinition::name, "Name of the machine.", base::required())
         .field("description", &MachineDefinition::description, "What kind of machine it is.")
-        .field("chain", &MachineDefinition::chain,
-               "From workpiece to tool: \"workpiece\", axis names, \"base\" (the standing part) once among them, \"tool\".",
-               base::required())
+        .field(
+            "chain", &MachineDefinition::chain,
+            "From workpiece to tool: \"workpiece\", axis names, \"base\" (the standing part) once among them, \"tool\".",
+            base::required())
         .named("linear", &MachineDefinition::linear, linearSection(), base::required())
         .named("rotary", &MachineDefinition::rotary, rotarySection())
         .table("spindle", &MachineDefinition::spindle, spindleSection(), base::required())

@@ -53,8 +53,7 @@ std::vector<std::string> unknownProvenance(const MachineDefinition& definition) 
         if (field.key == "rotary")
             for (const auto& [name, axis] : definition.rotary)
                 addUnsourced(definition, "rotary." + name,
-                             keysOf("rotary." + name, field.children,
-                                    axis.winding == RotaryAxis::Winding::Endless),
+                             keysOf("rotary." + name, field.children, axis.winding == RotaryAxis::Winding::Endless),
                              out);
         if (field.key == "spindle") addUnsourced(definition, "spindle", keysOf("spindle", field.children, false), out);
     }

@@ -13,8 +13,8 @@ namespace cusp::kinematics {
 
 /// One law and the pose that came closest to breaking it.
 struct Law {
-    std::string name;   ///< "tip after inverse and forward", …
-    std::string unit;   ///< of `worst` and `bound`: "mm", "rad", or "" for counts
+    std::string name;  ///< "tip after inverse and forward", …
+    std::string unit;  ///< of `worst` and `bound`: "mm", "rad", or "" for counts
     double worst = 0.0;
     double bound = 0.0;
     std::uint64_t checked = 0;  ///< how many times the law was put to the test

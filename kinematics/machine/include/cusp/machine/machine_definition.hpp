@@ -57,9 +57,9 @@ struct Spindle {
 /// A pose known from outside cusp (a real program, a manual): FK∘IK cannot see a wrong sign, this can.
 struct Anchor {
     std::string source;
-    RotaryPose rotary_rad;                     ///< key `rotary_deg`
-    Direction tool_axis{{0.0, 0.0, 1.0}};      ///< in the workpiece frame
-    double tolerance_rad = 0.0;                ///< as well as the outside source is known
+    RotaryPose rotary_rad;                 ///< key `rotary_deg`
+    Direction tool_axis{{0.0, 0.0, 1.0}};  ///< in the workpiece frame
+    double tolerance_rad = 0.0;            ///< as well as the outside source is known
 };
 
 /// Says where a value comes from; every value no source speaks of is assumed, and `machine check` says so.
