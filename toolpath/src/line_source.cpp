@@ -30,7 +30,7 @@ bool LineSource::fill() {
     try {
         in_->read(buffer_.data() + limit_, static_cast<std::streamsize>(block_bytes_));
         got = static_cast<std::size_t>(in_->gcount());
-    } catch (const std::ios_base::failure&) {  // only when the owner of the stream asked for exceptions
+    } catch (const std::exception&) {  // only when the owner of the stream asked for exceptions
         got = static_cast<std::size_t>(in_->gcount());
     }
     read_error_ = in_->bad();

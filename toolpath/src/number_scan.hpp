@@ -23,7 +23,7 @@ namespace cusp::toolpath::detail {
 }
 
 /// Reads `-0.0795`, `.9625`, `-.5`, `1.`, `+3`, `1.5E-3` from [first, last). Returns the end of the number, or null
-/// when there is none or it is not finite. The result is the double nearest to the text: a mantissa below 2^53 divided by
+/// when there is none or it is beyond any use (over 1e15). The result is the double nearest to the text: a mantissa below 2^53 divided by
 /// an exact power of ten is rounded once (Clinger, "How to read floating point numbers accurately", PLDI 1990).
 [[nodiscard]] inline const char* scanNumber(const char* first, const char* last, double& value) {
     static constexpr std::array<double, 19> power_of_ten{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,

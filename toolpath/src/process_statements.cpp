@@ -70,7 +70,6 @@ void handleFedrat(ReaderContext& context, std::string_view word, std::string_vie
                         "FEDRAT follows RAPID before any GOTO: the next move is made at this feed");
     }
     const double feed = *value * unit.mm_per_unit;
-    context.callOwedTool();
     context.emit(FeedRate{unit.unit == FeedRate::Unit::MmPerS ? base::mmPerSFromMmPerMin(feed) : feed, unit.unit});
 }
 
