@@ -1,14 +1,15 @@
 # SPDX-FileCopyrightText: The cusp authors
 # SPDX-License-Identifier: Apache-2.0
-# Compiles, as the room ROOM, an include of every other room: it must succeed where the arrows lead and fail, for the
+# Preprocesses, as the room ROOM, an include of every other room: it must succeed where the arrows lead and fail, for the
 # reason that there is no such file, where they do not. All of it once more with an installed cusp on the search path.
+# Whether a header that is found compiles as well is what the targets headers_<room> show.
 cmake_minimum_required(VERSION 3.25)
 include("${FOLDER}/room_headers.cmake")
 include("${FOLDER}/arrows_${ROOM}.cmake")
 set(units "${FOLDER}/arrows_${ROOM}")
 file(MAKE_DIRECTORY "${units}")
 
-set(flags -std=c++20 -fsyntax-only -DEIGEN_MALLOC_ALREADY_ALIGNED=1 -DEIGEN_MAX_ALIGN_BYTES=16)
+set(flags -std=c++20 -E -o /dev/null -DEIGEN_MALLOC_ALREADY_ALIGNED=1 -DEIGEN_MAX_ALIGN_BYTES=16)
 # /usr/include, named explicitly, would come before the C++ library's own folder and break it; CMake leaves it out too.
 list(REMOVE_ITEM include_folders "" ${implicit_folders})
 foreach(folder IN LISTS include_folders)
@@ -67,7 +68,6 @@ foreach(other IN LISTS rooms)
 endforeach()
 
 if(all_reachable)
-  # All in one unit, since Eigen alone costs a second.
   compile_includes(reachable "${all_reachable}" FALSE error)
   if(error)
     string(APPEND broken "${ROOM} cannot include what its arrows lead to:\n${error}\n")
@@ -76,7 +76,7 @@ endif()
 
 message(STATUS "${ROOM}: ${reachable} rooms within reach, ${forbidden} includes refused")
 if(reachable EQUAL 0 AND forbidden EQUAL 0)
-  string(APPEND broken "nothing was compiled")
+  string(APPEND broken "nothing was included")
 endif()
 if(broken)
   message(FATAL_ERROR "${broken}")
