@@ -19,8 +19,15 @@ fi
 mapfile -t files < <(while read -r file; do [ -e "$file" ] && echo "$file"; done <<<"$files")
 
 if [ "${1:-}" = --check ]; then
-    clang-format-19 --dry-run -Werror "${files[@]}"
-    echo "${#files[@]} files are formatted"
+    unformatted=0
+    for file in "${files[@]}"; do
+        if ! clang-format-19 --dry-run -Werror "$file" 2>/dev/null; then
+            echo "$file: not as clang-format leaves it"
+            unformatted=$((unformatted + 1))
+        fi
+    done
+    echo "$unformatted of ${#files[@]} files are to be formatted (make format)"
+    [ "$unformatted" -eq 0 ]
 else
     clang-format-19 -i "${files[@]}"
 fi
