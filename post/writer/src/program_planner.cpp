@@ -24,9 +24,9 @@ using toolpath::SpindleCommand;
 
 namespace {
 
-kinematics::PlannerOptions axisOptions(const kinematics::Machine& machine, const std::string& cl_file) {
+/// The start is left free: the rotary axes are positioned at home height, where travel costs nothing at the part.
+kinematics::PlannerOptions axisOptions(const std::string& cl_file) {
     kinematics::PlannerOptions options;
-    options.start_rad = machine.rotaryHome();
     options.file_name = cl_file;
     return options;
 }
@@ -37,7 +37,7 @@ struct ProgramPlanner::State {
     State(const MachineFile& machine_file, const kinematics::Machine& model, PostOptions post_options, std::string file,
           NcSink& steps, base::Diagnostics& diagnostics)
         : machine(machine_file), options(std::move(post_options)), cl_file(std::move(file)), sink(steps),
-          report(diagnostics), axes(model, axisOptions(model, cl_file)), rotary_count(model.rotaryCount()) {
+          report(diagnostics), axes(model, axisOptions(cl_file)), rotary_count(model.rotaryCount()) {
         if (options.spindle_rpm) {
             spindle.turn = SpindleCommand::Turn::Clockwise;
             spindle.speed_rpm = *options.spindle_rpm;

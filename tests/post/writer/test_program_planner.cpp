@@ -119,8 +119,8 @@ TEST_F(Planner, OneOperation) {
               "go-home\n"
               "comment operation OP1\n"
               "message OP1\n"
-              "change-tool \"BALL_6\"\n"
               "comment work offset: the programming frame, origin X0.0000 Y0.0000 Z0.0000 mm in the part\n"
+              "change-tool \"BALL_6\"\n"
               "smoothing on\n"
               "work-offset\n"
               "spindle cw 8000.000 rpm\n"
@@ -161,10 +161,14 @@ TEST_F(Planner, CuttingWithTheSpindleOffIsToldOnce) {
     plan(cl);
     EXPECT_EQ(base::toText(report), "part.cls:5: warning: cuts with the spindle off: there is no SPINDL before it. Give "
                                     "the speed with --spindle-rpm. [post.spindle-off]\n");
-    report = {};
-    EXPECT_NE(plan(cl, {.spindle_rpm = 5000.0}).find("spindle cw 5000.000 rpm\n"), std::string::npos);
+    report = base::Diagnostics();
+    PostOptions with_spindle;
+    with_spindle.spindle_rpm = 5000.0;
+    EXPECT_NE(plan(cl, with_spindle).find("spindle cw 5000.000 rpm\n"), std::string::npos);
     EXPECT_TRUE(report.empty()) << base::toText(report);
-    plan(cl, {.strict = true});
+    PostOptions strict;
+    strict.strict = true;
+    plan(cl, strict);
     EXPECT_TRUE(report.hasErrors());
 }
 
