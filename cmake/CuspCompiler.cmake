@@ -50,10 +50,6 @@ add_link_options(${CUSP_INSTRUMENT_FLAGS})
 add_library(cusp_warnings INTERFACE)
 target_compile_options(cusp_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
   -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Werror)
-if(NOT CUSP_INSTRUMENT_FLAGS)
-  # Instrumented code has branches of its own, in which g++ sees null pointers that are not there.
-  target_compile_options(cusp_warnings INTERFACE -Wnull-dereference)
-endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 sees overlapping copies in std::string's operator+ (GCC bug 105651) and uninitialised members in a std::variant
   # that is moved (GCC bugs 105562, 105593) that are not there. clang and clang-tidy keep watching for the real ones.

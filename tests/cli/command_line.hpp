@@ -6,10 +6,12 @@
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/child_process.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace cusp::cli {
