@@ -17,10 +17,10 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <poll.h>
-#include <sys/pidfd.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -193,7 +193,8 @@ public:
         : pid_(pid), pipes_(std::move(pipes)), limits_(limits), input_(input), started_(Clock::now()) {}
 
     ProcessOutcome finish() {
-        const Descriptor ended(::pidfd_open(pid_, 0));
+        // glibc 2.36 declares pidfd_open without C linkage, so C++ must ask the kernel itself.
+        const Descriptor ended(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
         for (Pipe* pipe : {&pipes_.output, &pipes_.errors}) makeNonBlocking(pipe->read_end);
         makeNonBlocking(pipes_.input.write_end);
         if (input_.empty()) pipes_.input.write_end.reset();

@@ -25,7 +25,11 @@ std::string article(const std::string& noun) {
 std::string foundText(const TomlNode& node) {
     if (const auto value = node.text()) return value->size() > longest_quote ? "a long text" : quoteToml(*value);
     if (const auto value = node.integer()) return std::to_string(*value);
-    if (const auto value = node.number()) return std::isfinite(*value) ? formatShortest(*value) : "no finite number";
+    if (const auto value = node.number()) {
+        // "expected a whole number, found 2" would puzzle whoever wrote 2.0.
+        const std::string text = std::isfinite(*value) ? formatShortest(*value) : "no finite number";
+        return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+    }
     if (const auto value = node.boolean()) return *value ? "true" : "false";
     if (node.isArray()) {
         const std::size_t count = node.elements().size();
@@ -94,6 +98,7 @@ std::string displayUnit(const KeyUnit& unit) {
     if (unit.name == "kw") return "kW";
     if (unit.name == "hz") return "Hz";
     if (unit.name == "celsius") return "°C";
+    if (unit.name == "um_per_m_k") return "µm/(m K)";
     std::string out(unit.name);
     if (out.starts_with("per_")) out = "1/" + out.substr(4);
     if (out.starts_with("n_")) out.front() = 'N';

@@ -66,22 +66,29 @@ std::string cleanTomlMessage(std::string_view message) {
         }
     }
     std::string out(message);
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 12> rewording{{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 14> rewording{{
         {", saw ", ", found "},
         {"encountered end-of-file", "the file ends here"},
-        {"cannot redefine existing ", "this is here a second time: "},
+        {"cannot redefine existing ", "this is in the file already: "},
         {"exceeded maximum nested value depth of 32 (TOML_MAX_NESTED_VALUES)", "lists and tables nested deeper than 32"},
         {"expected a comment or whitespace", "expected the end of the line"},
         {"value-terminator", "the end of the value"},
-        {"could not determine value type", "this is no TOML value (text needs quotes)"},
-        {"is not representable in 64 bits", "is too large a number"},
+        {"could not determine value type", "this is no TOML value (a text needs quotes)"},
+        {"is not representable in 64 bits", "is too large"},
+        {"unescaped control characters other than TAB (U+0009) are explicitly prohibited",
+         "a control character, or the end of the line before the closing quote"},
         {"explicitly prohibited", "not allowed"},
         {"prohibited", "not allowed"},
         {"decimal digit", "digit"},
         {"expected value", "expected a value"},
+        {"expected key or", "expected a key or"},
     }};
+    if (out.find("utf-8") != std::string::npos) return "this is not UTF-8; save the file as UTF-8 text";
     for (const auto& [from, to] : rewording) replaceAll(out, from, to);
-    if (scope.empty() || scope == "root table") return out;
+    // Where the message says it all, the place in the grammar is noise.
+    for (const std::string_view noise : {"", "root table", "value", "key-value pair", "comment"})
+        if (scope == noise) return out;
+    if (scope == "floating-point" || scope == "decimal integer") scope = "number";
     const bool vowel = std::string_view("aeiou").find(scope.front()) != std::string_view::npos;
     return out + " (in " + (vowel ? "an " : "a ") + scope + ")";
 }

@@ -28,7 +28,20 @@ namespace cusp::base {
 /// inside (mm, rad, s); the conversion is made here and nowhere else.
 template <class T>
 class Section {
+    template <class M>
+    struct WithoutOptional {
+        using Type = M;
+    };
+    template <class M>
+    struct WithoutOptional<std::optional<M>> {
+        using Type = M;
+    };
+
 public:
+    /// What a user may write, and what each word means.
+    template <class M>
+    using Words = std::vector<std::pair<std::string, typename WithoutOptional<M>::Type>>;
+
     explicit Section(std::string doc) : doc_(std::move(doc)) {}
 
     /// A plain value: double, std::int64_t, bool, std::string, std::array<double, n>; std::vector of those;
@@ -48,18 +61,34 @@ public:
         return *this;
     }
 
-    /// One of a fixed set of words.
-    template <class E>
-    Section& choice(std::string key, E T::*member, std::vector<std::pair<std::string, E>> words, std::string doc,
-                    FieldRules rules = {}) {
-        return addChoice(std::move(key), member, std::move(words), std::move(doc), rules);
-    }
-
-    /// One of a fixed set of words, or no such key.
-    template <class E>
-    Section& choice(std::string key, std::optional<E> T::*member, std::vector<std::pair<std::string, E>> words,
-                    std::string doc, FieldRules rules = {}) {
-        return addChoice(std::move(key), member, std::move(words), std::move(doc), rules);
+    /// One of a fixed set of words; for an optional member, or no such key.
+    template <class M>
+    Section& choice(std::string key, M T::*member, Words<M> words, std::string doc, FieldRules rules = {}) {
+        FieldInfo info;
+        info.key = std::move(key);
+        info.doc = std::move(doc);
+        info.required = rules.required;
+        info.type = wordList(words);
+        const auto word_of = [words](const M& value) {
+            for (const auto& [word, meaning] : words)
+                if (value == M(meaning)) return quoteToml(word);
+            return std::string();
+        };
+        info.default_text = rules.required ? "" : word_of(T{}.*member);
+        fields_.push_back({info,
+                           [member, words, info](T& out, const TomlNode& node, Diagnostics& report) {
+                               const auto text = node.text();
+                               for (const auto& [word, meaning] : words)
+                                   if (text && *text == word) {
+                                       out.*member = meaning;
+                                       return;
+                                   }
+                               reportWrongType(node, info, report);
+                           },
+                           [member, word_of, info](const T& value, ConfigPrinter& out) {
+                               out.value(info, word_of(value.*member));
+                           }});
+        return *this;
     }
 
     /// A nested table `[key]`.
@@ -184,36 +213,6 @@ public:
     }
 
 private:
-    template <class M, class E>
-    Section& addChoice(std::string key, M T::*member, std::vector<std::pair<std::string, E>> words, std::string doc,
-                       FieldRules rules) {
-        FieldInfo info;
-        info.key = std::move(key);
-        info.doc = std::move(doc);
-        info.required = rules.required;
-        info.type = wordList(words);
-        const auto word_of = [words](const M& value) {
-            for (const auto& [word, meaning] : words)
-                if (value == M(meaning)) return quoteToml(word);
-            return std::string();
-        };
-        info.default_text = rules.required ? "" : word_of(T{}.*member);
-        fields_.push_back({info,
-                           [member, words, info](T& out, const TomlNode& node, Diagnostics& report) {
-                               const auto text = node.text();
-                               for (const auto& [word, meaning] : words)
-                                   if (text && *text == word) {
-                                       out.*member = meaning;
-                                       return;
-                                   }
-                               reportWrongType(node, info, report);
-                           },
-                           [member, word_of, info](const T& value, ConfigPrinter& out) {
-                               out.value(info, word_of(value.*member));
-                           }});
-        return *this;
-    }
-
     template <class U>
     static void printTable(const Section<U>& section, const U& value, const FieldInfo& info, std::string_view before,
                            const std::string& key, ConfigPrinter& out) {
