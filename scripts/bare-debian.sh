@@ -35,14 +35,17 @@ timed() { # <what> <command…>: the seconds it took, and how it ended
     printf '%-10s %6d s   exit %d\n' "$what" $((SECONDS - begin)) "$status" | tee -a "$folder/times.txt"
     return "$status"
 }
+bootstrapRoot() {
+    debootstrap --variant=minbase --include=git,make,ca-certificates bookworm "$root" ${MIRROR:+"$MIRROR"} \
+        >"$folder/bootstrap.log"
+}
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 "$@"; }
 logged() { # <target>: make <target> inside, everything it says in a log
     inside make -C /root/cusp "$1" >"$folder/$1.log" 2>&1
 }
 
 : >"$folder/times.txt"
-timed bootstrap debootstrap --variant=minbase --include=git,make,ca-certificates bookworm "$root" \
-    ${MIRROR:+"$MIRROR"} >"$folder/debootstrap.log"
+timed bootstrap bootstrapRoot
 mount -t proc proc "$root/proc"
 # Names are looked up as the host does it.
 cp -L /etc/resolv.conf "$root/etc/resolv.conf"
