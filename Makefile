@@ -56,8 +56,8 @@ fuzz: ## Run every fuzzer for FUZZ_SECONDS each; findings stay in build/fuzz
 	scripts/deps.sh build test
 	cmake --preset fuzz -DCUSP_FUZZ_RUNS=-1 -DCUSP_FUZZ_SECONDS=$(FUZZ_SECONDS)
 	cmake --build --preset fuzz -j$(JOBS)
-	ctest --preset fuzz --timeout 0 -V
-	cmake --preset fuzz -UCUSP_FUZZ_RUNS -UCUSP_FUZZ_SECONDS
+	ctest --preset fuzz -j$(JOBS); status=$$?; \
+	  cmake --preset fuzz -UCUSP_FUZZ_RUNS -UCUSP_FUZZ_SECONDS >/dev/null; exit $$status
 
 format: ## Format every tracked source file in place
 	scripts/deps.sh lint
