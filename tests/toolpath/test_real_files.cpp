@@ -127,6 +127,38 @@ TEST_F(RealFiles, TappingIsNotYetRead) {
               "[cl.unsupported-motion]\n");
 }
 
+TEST_F(RealFiles, SolidWorksPointsAxesAndTools) {
+    const std::string text = fileText(folder + "swcam_wall_holes.apt");
+    const ReadOut out = readOut(text);
+    EXPECT_EQ(out.dialect, Dialect::SolidWorksCam);
+    const Counts naive = countNaively(text);
+    std::size_t points = 0;
+    std::size_t tools = 0;
+    std::size_t axes[2] = {};
+    for (const ClRecord& record : out.records) {
+        tools += std::holds_alternative<ToolCall>(record.statement) ? 1U : 0U;
+        if (const auto* motion = std::get_if<LinearMotion>(&record.statement)) {
+            ++points;
+            axes[0] += motion->location.axis == geometry::Vector3::UnitZ() ? 1U : 0U;
+            axes[1] += motion->location.axis.cross(geometry::Vector3::UnitX()).norm() == 0.0 ? 1U : 0U;
+        }
+    }
+    EXPECT_EQ(points, naive.points.size());
+    EXPECT_EQ(tools, 10U);
+    // Six-value GOTOs, by a search of the text, are those across Z.
+    static const std::regex six(R"(GOTO/([^,\n]+,){5}[^,\n]+)");
+    const auto across = static_cast<std::size_t>(
+        std::distance(std::sregex_iterator(text.begin(), text.end(), six), std::sregex_iterator()));
+    EXPECT_EQ(axes[1], across);
+    EXPECT_EQ(axes[0], points - across);
+    // Arcs, tool radius compensation switched on, and drilling cycles: nothing else is in the way.
+    static const std::regex unread(R"((^|\n)(CIRCLE/|CUTCOM/(LEFT|RIGHT)|CYCLE/(INIT|DRILL|DEEP2)))");
+    EXPECT_EQ(out.report.errorCount(),
+              static_cast<std::size_t>(
+                  std::distance(std::sregex_iterator(text.begin(), text.end(), unread), std::sregex_iterator())));
+    EXPECT_EQ(out.report.warningCount(), 0U);
+}
+
 TEST_F(RealFiles, ToolsFramesAndAxes) {
     const std::string nx = readOut(fileText(folder + "nx_variable_axis.cls")).text;
     EXPECT_EQ(nx.substr(0, nx.find("10 rapid")),

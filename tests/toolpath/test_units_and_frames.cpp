@@ -91,6 +91,7 @@ TEST(DialectOf, IsToldByWhatOnlyOneSystemWrites) {
     EXPECT_STREQ(dialectName(Dialect::Nx), "NX");
     EXPECT_STREQ(dialectName(Dialect::Catia), "CATIA");
     EXPECT_STREQ(dialectName(Dialect::Apt), "APT");
+    EXPECT_STREQ(dialectName(Dialect::SolidWorksCam), "SolidWorks CAM");
 }
 
 TEST(Msys, IsOriginXAndY) {
@@ -111,6 +112,31 @@ TEST(Msys, Problems) {
         "2: error: MSYS: the X and Y directions are not perpendicular unit vectors [cl.frame]\n";
     EXPECT_EQ(problems("0,0,0,1,0,0,.6,.8,0"), not_perpendicular);
     EXPECT_EQ(problems("0,0,0,2,0,0,0,1,0"), not_perpendicular);
+}
+
+TEST(Csys, GivesTheAxisOfA3Plus2Plane) {
+    const ReadOut out =
+        readOut("UNIT/MM\nTRNTYP/WORLD,0,0,0\nGOTO/1,0,0\nCSYS/0,0,-1.,0,-1.,0,0,0,0,1.,0,0\nGOTO/2,0,0\n"
+                "GOTO/3,0,0,-1.,0,0\nSELECT/TOOL,4\nCSI_SET_FLUTE_LENGTH/38.\nFINI\n");
+    EXPECT_EQ(out.dialect, Dialect::SolidWorksCam);
+    EXPECT_EQ(out.problems, "");
+    EXPECT_EQ(out.text, "3 go 1 0 0 axis 0 0 1\n5 go 2 0 0 axis -1 0 0\n6 go 3 0 0 axis -1 0 0\n9 end\n");
+}
+
+TEST(Csys, Problems) {
+    const auto problems = [](const std::string& statement) {
+        return readOut("UNITS/MM\n" + statement + "\nGOTO/1,0,0\nFINI\n").problems;
+    };
+    EXPECT_EQ(problems("CSYS/1,0,0"), "2: error: CSYS takes 12 values (three rows of a matrix), not 3 [cl.syntax]\n");
+    EXPECT_EQ(problems("CSYS/1,0,0,0,0,1,0,0,0,0,-1,0"),
+              "2: error: CSYS: the matrix is not a rotation with an origin [cl.frame]\n");
+    EXPECT_EQ(problems("TRNTYP/LOCAL,0,0,0"),
+              "2: error: TRNTYP/LOCAL,0,0,0 is not yet read; without it the tool would go elsewhere than the file says "
+              "[cl.unsupported-motion]\n");
+    // Elsewhere CSYS is not known, but it turns the axis all the same.
+    EXPECT_EQ(readOut("TOOL PATH/A,TOOL,B\nFEDRAT/MMPM,1\nCSYS/1\nGOTO/1,0,0\nEND-OF-PATH\n").problems,
+              "3: error: CSYS is not yet read; without it the tool would go elsewhere than the file says "
+              "[cl.unsupported-motion]\n");
 }
 
 const std::string catia_frame = "$$*CATIA0\n$$ Manufacturing Program.1\n"

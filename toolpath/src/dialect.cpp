@@ -10,13 +10,20 @@ namespace cusp::toolpath {
 namespace detail {
 namespace {
 
-using Words = std::array<std::string_view, 3>;
-constexpr Words nx_words{"TOOL PATH", "TLDATA", "MSYS"};
+constexpr std::array<std::string_view, 3> nx_words{"TOOL PATH", "TLDATA", "MSYS"};
+constexpr std::array<std::string_view, 3> solidworks_words{"TRNTYP", "CSYS", "CSI_SET_FLUTE_LENGTH"};
 constexpr std::array<std::string_view, 2> catia_comments{"*CATIA0", "CATIA APT"};
 
-constexpr std::array<DialectTraits, 3> dialects{{
+constexpr std::array<DialectTraits, 4> dialects{{
     {Dialect::Nx, "NX", AxisRule::Modal, ToolNameRule::OperationHeader, false, nx_words, {}},
     {Dialect::Catia, "CATIA", AxisRule::Declared, ToolNameRule::ToolPrint, true, {}, catia_comments},
+    {Dialect::SolidWorksCam,
+     "SolidWorks CAM",
+     AxisRule::Declared,
+     ToolNameRule::ToolPrint,
+     false,
+     solidworks_words,
+     {}},
     {Dialect::Apt, "APT", AxisRule::Declared, ToolNameRule::ToolPrint, false, {}, {}},
 }};
 

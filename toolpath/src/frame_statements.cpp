@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// UNITS, MSYS and the frames and operation names that CATIA writes as comments.
+// UNITS, MSYS, CSYS and the frames and operation names that CATIA writes as comments.
 #include "head_scan.hpp"
 #include "number_scan.hpp"
 #include "statement_table.hpp"
@@ -107,6 +107,34 @@ void handleMsys(ReaderContext& context, std::string_view word, std::string_view 
         return;
     }
     emitFrame(context, *rotation, geometry::Vector3(v[0], v[1], v[2]));
+}
+
+void handleCsys(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    std::array<double, 12> v{};
+    if (fields.size() != v.size()) {
+        context.error("cl.syntax",
+                      fmt::format("{} takes 12 values (three rows of a matrix), not {}", word, fields.size()));
+        return;
+    }
+    if (!takeNumbers(context, word, fields, 0, v.size(), v.data())) {
+        return;
+    }
+    const std::optional<geometry::Matrix3> rotation =
+        frameFromAxes(geometry::Vector3(v[0], v[4], v[8]), geometry::Vector3(v[1], v[5], v[9]));
+    if (!rotation || !((rotation->col(2) - geometry::Vector3(v[2], v[6], v[10])).norm() <= orthonormal_tolerance)) {
+        context.error("cl.frame", fmt::format("{}: the matrix is not a rotation with an origin", word));
+        return;
+    }
+    // The points stay in the world frame (TRNTYP/WORLD): only the tool axis of the 3+2 plane, its Z, matters.
+    context.declared_axis = rotation->col(2);
+    context.axis = context.declared_axis;
+}
+
+void handleTrntyp(ReaderContext& context, std::string_view word, std::string_view body) {
+    if (const Fields fields(body); fields.empty() || !fields[0].is("WORLD")) {
+        unsupportedMotion(context, fmt::format("{}/{}", word, quoted(body)), body);
+    }
 }
 
 void handleComment(ReaderContext& context, std::string_view comment) {

@@ -11,6 +11,7 @@ namespace cusp::toolpath::detail {
 namespace {
 
 constexpr DialectSet nx = only(Dialect::Nx);
+constexpr DialectSet solidworks = only(Dialect::SolidWorksCam);
 
 // Sorted by word; an entry for one dialect comes before that for every dialect.
 constexpr std::array statements{
@@ -19,6 +20,10 @@ constexpr std::array statements{
     StatementEntry{"CIRCLE", unsupportedMotion},
     StatementEntry{"COOLNT", handleCoolnt},
     StatementEntry{"COPY", unsupportedMotion},
+    StatementEntry{"CSI_SET_EXTENSION_LENGTH", handleMeaningless, solidworks},
+    StatementEntry{"CSI_SET_FLUTE_LENGTH", handleMeaningless, solidworks},
+    StatementEntry{"CSYS", handleCsys, solidworks},
+    StatementEntry{"CSYS", unsupportedMotion},
     StatementEntry{"CUTCOM", handleOnlyOff},
     StatementEntry{"CUTTER", handleCutter},
     StatementEntry{"CYCLE", handleOnlyOff},
@@ -62,6 +67,7 @@ constexpr std::array statements{
     StatementEntry{"REWIND", handleMeaningless},
     StatementEntry{"ROTABL", unsupportedMotion},
     StatementEntry{"ROTHED", unsupportedMotion},
+    StatementEntry{"SELECT", handleMeaningless, solidworks},
     StatementEntry{"SPINDL", handleSpindl},
     StatementEntry{"STOP", handleStop},
     StatementEntry{"SYN", unsupportedMotion},
@@ -75,6 +81,7 @@ constexpr std::array statements{
     StatementEntry{"TPRINT", handleTprint},
     StatementEntry{"TRACUT", unsupportedMotion},
     StatementEntry{"TRANS", unsupportedMotion},
+    StatementEntry{"TRNTYP", handleTrntyp},
     StatementEntry{"TURRET", handleTurret},
     StatementEntry{"UNIT", handleUnits},
     StatementEntry{"UNITS", handleUnits},

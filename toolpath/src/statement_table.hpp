@@ -57,6 +57,8 @@ void handleTurret(ReaderContext& context, std::string_view word, std::string_vie
 // frame_statements.cpp
 void handleUnits(ReaderContext& context, std::string_view word, std::string_view body);
 void handleMsys(ReaderContext& context, std::string_view word, std::string_view body);
+void handleCsys(ReaderContext& context, std::string_view word, std::string_view body);
+void handleTrntyp(ReaderContext& context, std::string_view word, std::string_view body);
 /// Comments of dialects whose comments carry records.
 void handleComment(ReaderContext& context, std::string_view comment);
 /// To be called when anything but a comment follows: a frame that is cut short is reported.
@@ -66,7 +68,7 @@ void finishFrame(ReaderContext& context);
 void handleRemark(ReaderContext& context, std::string_view word, std::string_view body);
 void handleEnd(ReaderContext& context, std::string_view word, std::string_view body);
 void handleEndOfPath(ReaderContext& context, std::string_view word, std::string_view body);
-/// Display, tolerances, tape: nothing for the machine.
+/// Display, tolerances, tape, the tool to be made ready next: nothing for the machine.
 void handleMeaningless(ReaderContext& context, std::string_view word, std::string_view body);
 
 }  // namespace cusp::toolpath::detail

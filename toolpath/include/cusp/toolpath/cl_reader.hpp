@@ -18,7 +18,7 @@ namespace cusp::toolpath {
 
 /// Who wrote the file. The dialect decides what plain APT leaves open.
 /// `Apt` is plain APT without a system's own statements.
-enum class Dialect : std::uint8_t { Nx, Catia, Apt };
+enum class Dialect : std::uint8_t { Nx, Catia, Apt, SolidWorksCam };
 
 [[nodiscard]] const char* dialectName(Dialect dialect);
 
