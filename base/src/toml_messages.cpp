@@ -40,13 +40,16 @@ void replaceAll(std::string& text, std::string_view from, std::string_view to) {
 
 }  // namespace
 
-std::optional<std::size_t> lineWithTooDeepKey(std::string_view text) {
+std::optional<TextProblem> findTextProblem(std::string_view text) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     std::size_t line = 1;
     std::size_t parts = 1;
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i];
         const std::size_t next = skipToken(text, i);
-        if (c == '.' && ++parts > max_key_parts) return line;
+        if (static_cast<unsigned char>(c) >= 0x80U) return TextProblem{line, "a character that needs quotes around it"};
+        if (c == '.' && ++parts > max_key_parts) return TextProblem{line, "a key of more than 32 parts"};
         if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) parts = 1;
         line += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
                                                     text.begin() + static_cast<std::ptrdiff_t>(next), '\n'));

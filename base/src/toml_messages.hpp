@@ -10,9 +10,15 @@
 
 namespace cusp::base {
 
-/// The line of the first dotted key of more than 32 parts. toml++ 3.3 builds one nested table per part and destroys
-/// them recursively, so a line of a million dots would overflow the stack.
-[[nodiscard]] std::optional<std::size_t> lineWithTooDeepKey(std::string_view text);
+struct TextProblem {
+    std::size_t line = 0;
+    std::string_view message;
+};
+
+/// What toml++ 3.3 cannot be trusted with. A dotted key of more than 32 parts: it builds one nested table per part and
+/// destroys them recursively, so a line of a million dots would overflow the stack. A character beyond ASCII outside
+/// texts and comments (TOML 1.0 has none there): its classification of them runs into undefined behaviour.
+[[nodiscard]] std::optional<TextProblem> findTextProblem(std::string_view text);
 
 /// "Error while parsing key-value pair: expected '=', saw 'x'" → "expected '=', found 'x' (in a key-value pair)".
 [[nodiscard]] std::string cleanTomlMessage(std::string_view message);

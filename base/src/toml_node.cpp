@@ -97,7 +97,7 @@ std::vector<std::string> TomlNode::keys() const {
     // toml++ sorts by name; people read their file from the top.
     std::vector<std::pair<toml::source_position, std::string>> found;
     for (const auto& [key, value] : *table) found.emplace_back(key.source().begin, std::string(key.str()));
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<std::string> out;
     out.reserve(found.size());
     for (auto& [position, key] : found) out.push_back(std::move(key));
@@ -141,9 +141,9 @@ Result<TomlDocument> TomlDocument::readFile(const std::string& path) {
 
 Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::string& file_name) {
     if (text.size() > max_file_bytes) return failTooLarge(file_name);
-    if (const auto line = lineWithTooDeepKey(text))
-        return fail("toml.syntax", "a key of more than 32 parts",
-                    {.file = file_name, .line = *line, .column = 0, .key = {}});
+    if (const auto problem = findTextProblem(text))
+        return fail("toml.syntax", std::string(problem->message),
+                    {.file = file_name, .line = problem->line, .column = 0, .key = {}});
     toml::parse_result result = toml::parse(text);
     if (!result) {
         const toml::parse_error& error = result.error();
