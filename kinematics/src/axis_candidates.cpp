@@ -16,6 +16,9 @@ namespace {
 
 using base::degFromRad;
 
+// The first rotary angle of a path that begins at the pole, until its first point off the pole decides it.
+constexpr double free_angle = std::numeric_limits<double>::quiet_NaN();
+
 /// The winding of `angle_rad` that lies least beyond `range`.
 double nearestWinding(const AxisRange& range, double angle_rad) {
     if (range.endless) return angle_rad;
@@ -65,7 +68,7 @@ void AxisPlanner::gatherAtPole(const Layer& layer) {
             if (state.alive && !known) first.push_back(angle);
         }
     } else {
-        first.push_back(last_ ? (*last_)[0] : std::numeric_limits<double>::quiet_NaN());
+        first.push_back(last_ ? (*last_)[0] : free_angle);
     }
     addWindings(1, layer.solved.branch[0][1]);
 }
@@ -107,17 +110,18 @@ void AxisPlanner::gatherNearest(const Layer& layer) {
 }
 
 void AxisPlanner::handOut(const Layer& layer, const RotaryValues& chosen) {
+    double shortest_rad = not_known;
     PlannedAxes out{.rotary_rad = chosen,
                     .line = layer.line,
                     .pole = layer.solved.pole,
                     .within_limits = layer.within_limits,
                     .reached = layer.solved.miss_rad <= options_.axis_tolerance_rad,
-                    .rewind = last_ && isRewind(layer, *last_, chosen)};
+                    .rewind = last_ && isRewind(layer, *last_, chosen, shortest_rad)};
     for (std::size_t i = 0; i < machine_.rotaryCount() && last_; ++i) {
         if (machine_.rotaryRange(i).endless) out.rotary_rad[i] = (*last_)[i] + wrapAngle(chosen[i] - (*last_)[i]);
         summary_.travel_rad[i] += std::abs(out.rotary_rad[i] - (*last_)[i]);
     }
-    reportProblems(layer, out);
+    reportProblems(layer, last_.value_or(chosen), out);
     ++summary_.points;
     summary_.pole_points += out.pole ? 1 : 0;
     summary_.limit_violations += out.within_limits ? 0 : 1;
@@ -127,7 +131,7 @@ void AxisPlanner::handOut(const Layer& layer, const RotaryValues& chosen) {
     ready_.push_back(out);
 }
 
-void AxisPlanner::reportProblems(const Layer& layer, const PlannedAxes& out) {
+void AxisPlanner::reportProblems(const Layer& layer, const RotaryValues& before, const PlannedAxes& out) {
     const base::Location where{.file = options_.file_name, .line = layer.line, .column = 0, .key = {}};
     if (!out.reached) {
         const std::string miss = degreeText(layer.solved.miss_rad);
@@ -151,11 +155,11 @@ void AxisPlanner::reportProblems(const Layer& layer, const PlannedAxes& out) {
                       where);
     }
     for (std::size_t i = 0; i < machine_.rotaryCount() && out.rewind; ++i) {
-        const double step = out.rotary_rad[i] - (*last_)[i];
+        const double step = out.rotary_rad[i] - before[i];
         if (std::abs(step) < options_.rewind_threshold_rad) continue;
         report_.warning("kinematics.rewind",
                         fmt::format("{} axis turns from {}° to {}° ({}°) at CL line {} while cutting",
-                                    machine_.rotaryNames()[i], degreeText((*last_)[i]), degreeText(out.rotary_rad[i]),
+                                    machine_.rotaryNames()[i], degreeText(before[i]), degreeText(out.rotary_rad[i]),
                                     degreeText(std::abs(step)), layer.line),
                         where);
     }

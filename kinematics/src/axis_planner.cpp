@@ -14,10 +14,11 @@
 namespace cusp::kinematics {
 namespace {
 
-// The first rotary angle of a path that begins at the pole, until its first point off the pole decides it.
-constexpr double free_angle = std::numeric_limits<double>::quiet_NaN();
-
-std::int64_t nano(double value) { return static_cast<std::int64_t>(value * 1e9 + 0.5); }
+/// To the nearest billionth; values are never negative.
+std::int64_t nano(double value) {
+    constexpr double half = 0.5e-9;
+    return static_cast<std::int64_t>((value + half) * 1e9);
+}
 
 }  // namespace
 
@@ -50,28 +51,33 @@ double AxisPlanner::turned(std::size_t axis, double from, double to) const {
     return std::abs(machine_.rotaryRange(axis).endless ? wrapAngle(difference) : difference);
 }
 
-bool AxisPlanner::isRewind(const Layer& layer, const RotaryValues& from, const RotaryValues& to) const {
-    if (!layer.cutting) return false;
-    double widest = 0.0;
-    for (std::size_t i = 0; i < machine_.rotaryCount(); ++i) widest = std::max(widest, turned(i, from[i], to[i]));
-    if (widest < options_.rewind_threshold_rad) return false;
+/// The largest turn of the shortest way to the layer if there were no limits.
+double AxisPlanner::shortestWay(const Layer& layer, const RotaryValues& from) const {
     double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t b = 0; b < layer.solved.count; ++b) {
-        double way = layer.solved.pole ? 0.0 : std::abs(wrapAngle(layer.solved.branch[b][0] - from[0]));
-        way = std::max(way, std::abs(wrapAngle(layer.solved.branch[b][1] - from[1])));
-        shortest = std::min(shortest, way);
+        const RotaryValues& branch = layer.solved.branch[b];
+        const double first = layer.solved.pole || std::isnan(from[0]) ? 0.0 : std::abs(wrapAngle(branch[0] - from[0]));
+        shortest = std::min(shortest, std::max(first, std::abs(wrapAngle(branch[1] - from[1]))));
     }
-    return widest - shortest >= options_.rewind_threshold_rad;
+    return shortest;
 }
 
-AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const RotaryValues& from, const RotaryValues& to) const {
+bool AxisPlanner::isRewind(const Layer& layer, const RotaryValues& from, const RotaryValues& to,
+                           double& shortest_rad) const {
+    const double first = std::isnan(from[0]) ? 0.0 : turned(0, from[0], to[0]);
+    const double widest = std::max(first, turned(1, from[1], to[1]));
+    if (!layer.cutting || widest < options_.rewind_threshold_rad) return false;
+    if (shortest_rad == not_known) shortest_rad = shortestWay(layer, from);
+    return widest - shortest_rad >= options_.rewind_threshold_rad;
+}
+
+AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const RotaryValues& from, const RotaryValues& to,
+                                        double& shortest_rad) const {
     const bool was_free = std::isnan(from[0]);
     const double first = was_free ? 0.0 : turned(0, from[0], to[0]);
     const double second = turned(1, from[1], to[1]);
     double time_s = std::max(first * seconds_per_rad_[0], second * seconds_per_rad_[1]);
-    if (std::max(first, second) >= options_.rewind_threshold_rad &&
-        isRewind(layer, {was_free ? to[0] : from[0], from[1]}, to))
-        time_s += options_.rewind_penalty_s;
+    if (isRewind(layer, from, to, shortest_rad)) time_s += options_.rewind_penalty_s;
     return {.time_ns = nano(time_s),
             .travel_nrad = nano(first + second),
             .start_nrad = was_free && !std::isnan(to[0]) ? nano(std::abs(to[0])) : 0};
@@ -80,8 +86,9 @@ AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const RotaryValues& 
 void AxisPlanner::addState(const Layer& layer, const RotaryValues& candidate) {
     State state{.rotary_rad = candidate, .cost = {}, .before = 0, .alive = true};
     if (layers_.empty()) {
+        double shortest_rad = not_known;
         if (last_)
-            state.cost = stepCost(layer, *last_, candidate);
+            state.cost = stepCost(layer, *last_, candidate, shortest_rad);
         else
             for (const double angle : candidate) state.cost.start_nrad += std::isnan(angle) ? 0 : nano(std::abs(angle));
         states_.push_back(state);
@@ -96,7 +103,7 @@ void AxisPlanner::addState(const Layer& layer, const RotaryValues& candidate) {
         if (layer.solved.pole && from.rotary_rad[0] != candidate[0] &&
             !(std::isnan(from.rotary_rad[0]) && std::isnan(candidate[0])))
             continue;
-        Cost cost = stepCost(layer, from.rotary_rad, candidate);
+        Cost cost = stepCost(layer, from.rotary_rad, candidate, shortest_rad_[i]);
         cost.time_ns += from.cost.time_ns;
         cost.travel_nrad += from.cost.travel_nrad;
         cost.start_nrad += from.cost.start_nrad;
@@ -120,6 +127,7 @@ void AxisPlanner::push(const AxisPoint& point) {
         layer.within_limits = false;
         gatherNearest(layer);
     }
+    shortest_rad_.assign(layers_.empty() ? 0 : layers_.back().count, not_known);
     for (const RotaryValues& candidate : candidates_) addState(layer, candidate);
     layer.count = states_.size() - layer.first;
     layers_.push_back(layer);

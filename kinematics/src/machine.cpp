@@ -104,7 +104,7 @@ std::optional<Vector3> Machine::solveLinear(const Vector3& tip_mm, const RotaryV
     tip_at_zero += rotation * (gauge_point_ - tool_length_mm * spindle_axis_);
     constexpr double singular = 1e-6;
     if (std::abs(directions.determinant()) < singular) return std::nullopt;
-    const Vector3 linear_mm = directions.partialPivLu().solve(tip_mm - tip_at_zero);
+    Vector3 linear_mm = directions.partialPivLu().solve(tip_mm - tip_at_zero);
     return linear_mm;
 }
 

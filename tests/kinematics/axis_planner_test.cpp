@@ -49,6 +49,7 @@ Plan plan(const Machine& machine, const std::vector<AxisPoint>& path, PlannerOpt
 std::vector<AxisPoint> pathThrough(const Machine& machine, const std::vector<RotaryValues>& rotary_deg,
                                    bool cutting = true) {
     std::vector<AxisPoint> path;
+    path.reserve(rotary_deg.size());
     for (const RotaryValues& values : rotary_deg)
         path.push_back({.axis = machine.toolAxis({radFromDeg(values[0]), radFromDeg(values[1])}),
                         .line = static_cast<std::uint32_t>(path.size() + 1),

@@ -30,7 +30,7 @@ TEST(MachineFile, KeepsUnitsInsideMmRadAndSeconds) {
     EXPECT_EQ(machine.name, "C/A head, C ±200, A ±95");
     EXPECT_NEAR(machine.linear.at("Z").max_velocity_mm_per_s, 500.0, 1e-12);
     EXPECT_NEAR(machine.rotary.at("C").max_velocity_rad_per_s, radFromDeg(60.0), 1e-15);
-    EXPECT_NEAR(machine.rotary.at("A").min_rad.value(), radFromDeg(-95.0), 1e-15);
+    EXPECT_NEAR(machine.rotary.at("A").min_rad.value_or(0.0), radFromDeg(-95.0), 1e-15);
     EXPECT_NEAR(machine.anchors.at(0).rotary_rad.at("A"), radFromDeg(-70.529), 1e-15);
     EXPECT_NEAR(machine.anchors.at(0).tool_axis[2], 1.0 / 3.0, 1e-15);
 }

@@ -129,6 +129,7 @@ TEST(Inverse, GivesEveryWindingWithinTheLimits) {
     const PoseSolutions solved = machine.inverse({.tip_mm = Vector3(1.0, 2.0, 3.0), .axis = target}, 100.0);
     ASSERT_EQ(solved.values.size(), 3U);
     std::vector<double> c_deg;
+    c_deg.reserve(solved.values.size());
     for (const AxisValues& values : solved.values) c_deg.push_back(degFromRad(values.rotary_rad[0]));
     std::sort(c_deg.begin(), c_deg.end());
     EXPECT_NEAR(c_deg[0], -190.0, 1e-11);

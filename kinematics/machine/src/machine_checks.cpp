@@ -32,6 +32,14 @@ Location at(const TomlNode& root, std::string_view table, const std::string& nam
     return node ? at(*node, name) : root.whereKey(table);
 }
 
+/// The value of `key`, or the table itself: for places of which the field table has already made sure.
+TomlNode child(const TomlNode& table, std::string_view key) { return table.at(key).value_or(table); }
+
+TomlNode element(const TomlNode& root, std::string_view key, std::size_t i) {
+    const std::vector<TomlNode> elements = child(root, key).elements();
+    return i < elements.size() ? elements[i] : root;
+}
+
 std::array<double, 3> cross(const Direction& a, const Direction& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -153,7 +161,7 @@ void checkAnchors(const MachineDefinition& machine, const TomlNode& root, Diagno
         for (const auto& [name, angle] : machine.anchors[i].rotary_rad)
             if (!machine.rotary.contains(name))
                 report.error("machine.anchor-axis", fmt::format("the machine has no rotary axis \"{}\"", name),
-                             at(*root.at("anchor")->elements()[i].at("rotary_deg"), name));
+                             at(child(element(root, "anchor", i), "rotary_deg"), name));
 }
 
 /// Keys that do not exist would make a value look documented that is not. `control` belongs to another room.
@@ -165,14 +173,14 @@ void checkSources(const MachineDefinition& machine, const TomlNode& root, Diagno
             bool found = true;
             while (found && start <= key.size()) {
                 const std::size_t dot = std::min(key.find('.', start), key.size());
-                const auto child = node.at(key.substr(start, dot - start));
-                found = child.has_value();
-                if (found) node = *child;
+                const auto value = node.at(key.substr(start, dot - start));
+                found = value.has_value();
+                if (found) node = *value;
                 start = dot + 1;
             }
             if (!found)
                 report.error("machine.source-key", fmt::format("the file has no key \"{}\"", key),
-                             at(root.at("source")->elements()[i], "keys"));
+                             at(element(root, "source", i), "keys"));
         }
 }
 

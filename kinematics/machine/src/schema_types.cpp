@@ -33,7 +33,8 @@ std::string printValue(const Direction& value, const base::FieldInfo& info) {
 void readValue(const base::TomlNode& node, const base::FieldInfo& info, RotaryPose& out, base::Diagnostics& report) {
     if (!node.isTable()) return base::reportWrongType(node, info, report);
     RotaryPose pose;
-    for (const std::string& name : node.keys()) base::readValue(*node.at(name), info, pose[name], report);
+    for (const std::string& name : node.keys())
+        if (const auto angle = node.at(name)) base::readValue(*angle, info, pose[name], report);
     out = std::move(pose);
 }
 

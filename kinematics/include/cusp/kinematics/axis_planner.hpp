@@ -116,15 +116,18 @@ private:
     void gatherAtPole(const Layer& layer);
     void addWindings(std::size_t axis, double angle_rad);
     void addState(const Layer& layer, const RotaryValues& candidate);
-    [[nodiscard]] Cost stepCost(const Layer& layer, const RotaryValues& from, const RotaryValues& to) const;
-    [[nodiscard]] bool isRewind(const Layer& layer, const RotaryValues& from, const RotaryValues& to) const;
+    [[nodiscard]] Cost stepCost(const Layer& layer, const RotaryValues& from, const RotaryValues& to,
+                                double& shortest_rad) const;
+    [[nodiscard]] bool isRewind(const Layer& layer, const RotaryValues& from, const RotaryValues& to,
+                                double& shortest_rad) const;
+    [[nodiscard]] double shortestWay(const Layer& layer, const RotaryValues& from) const;
     [[nodiscard]] double turned(std::size_t axis, double from, double to) const;
 
     void commit(std::size_t layer_count);
     [[nodiscard]] std::vector<std::uint32_t> traceBack() const;
     [[nodiscard]] std::size_t settleFreeAngle(std::vector<std::uint32_t>& chosen, std::size_t layer_count);
     void handOut(const Layer& layer, const RotaryValues& chosen);
-    void reportProblems(const Layer& layer, const PlannedAxes& out);
+    void reportProblems(const Layer& layer, const RotaryValues& before, const PlannedAxes& out);
     void dropFront(std::size_t layer_count, std::uint32_t chosen);
 
     const Machine& machine_;
@@ -133,6 +136,8 @@ private:
     std::vector<Layer> layers_;
     std::vector<State> states_;
     std::vector<RotaryValues> candidates_;
+    static constexpr double not_known = -1.0;
+    std::vector<double> shortest_rad_;  ///< from each state of the layer before, once asked for
     std::array<std::vector<double>, 2> positions_;
     std::optional<RotaryValues> last_;  ///< handed out last, with endless axes unwrapped
     std::vector<PlannedAxes> ready_;
