@@ -133,6 +133,9 @@ void Executor::applyTool(const BlockContent& content) {
         state_.tool = preselected_tool_;
         state_.cutting_edge = 1;  // MD20270 $MC_CUTTING_EDGE_DEFAULT, as Siemens delivers it
         forgetLinear();
+        // Every tool change stops the spindle and the coolant; what the machine builder switches on again is not relied on.
+        state_.spindle = SpindleTurn::Off;
+        state_.mist = state_.flood = false;
         sink_.event(place_, ToolChange{state_.tool});
     }
     if (!content.cutting_edge) return;

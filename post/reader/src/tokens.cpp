@@ -3,6 +3,7 @@
 // The lexer. Where X10 ends and a name begins: names have a letter or '_' as their second character (PM12, names).
 #include "tokens.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -87,12 +88,16 @@ private:
         }
         if (!in_range || !std::isfinite(value))
             return fail("nc.number",
-                        fmt::format("\"{}\" is no number the control can hold", upper_.substr(begin, end - begin)),
-                        begin);
+                        fmt::format("\"{}\" is no number the control can hold", shortened(begin, end - begin)), begin);
         add(TokenKind::Number, begin, end - begin);
         tokens_.back().number = value;
         tokens_.back().integer = integer;
         return true;
+    }
+
+    [[nodiscard]] std::string shortened(std::size_t begin, std::size_t length) const {
+        constexpr std::size_t shown = 20;
+        return upper_.substr(begin, std::min(length, shown)) + (length > shown ? "…" : "");
     }
 
     bool text() {

@@ -23,6 +23,8 @@ constexpr double same_tip_mm = 1e-9;
 constexpr double same_axis_rad = 1e-12;
 /// Rounding of limits between degrees and radians.
 constexpr double limit_slack_rad = 1e-9;
+/// Printed rotary values differ from the exact ones; far below any wrong branch away from the pole.
+constexpr double branch_slack_rad = base::radFromDeg(0.1);
 
 bool isRapid(const ExecutedMotion& motion) { return motion.code == MotionCode::Rapid; }
 
@@ -275,14 +277,24 @@ void Alignment::checkBetween(const ExecutedMotion& motion, double to) {
                         base::degFromRad(*options_.between_axis_tolerance_rad)));
 }
 
-/// No cutting move needs more than half a turn of an axis: beyond it the winding is wrong, which no block end shows.
+/// A wrong branch or winding is right at every block end: only the way between shows it. Rotary axes that run linearly
+/// between two ends on the same branch leave the great circle by at most half the angle between the ends, the pole
+/// included (C sweeping by 2φ at tilt a: a·(1 − cos φ) against an angle of 2·a·sin φ); on the wrong one by far more.
 void Alignment::checkTurns(const ExecutedMotion& motion, std::size_t cl_line) {
-    if (isRapid(motion) || reader::rotaryTravel(motion) <= std::numbers::pi + limit_slack_rad) return;
+    if (isRapid(motion) || !motion.start_pose) return;
+    const double travel = reader::rotaryTravel(motion);
+    const double turn = reader::angleBetween(motion.start_pose->axis, motion.end_pose->axis);
+    if (travel <= 2.0 * turn + branch_slack_rad) return;
+    ExecutedMotion linear = motion;
+    linear.orientation_path = reader::OrientationPath::RotaryLinear;
+    const PoseError stray = strayBetween(linear, chain_, {*motion.start_pose, *motion.end_pose}, 0.0, 1.0);
+    if (stray.axis_rad <= turn + branch_slack_rad && travel <= std::numbers::pi + limit_slack_rad) return;
     findings_.error(
         "verify.winding", motion.place,
         fmt::format(
-            "a rotary axis turns {:.4g}° in this feed move (CL line {}); more than half a turn is the long way round",
-            base::degFromRad(reader::rotaryTravel(motion)), cl_line));
+            "the rotary axes go the long way round in this feed move to CL line {}: one turns {:.4g}°, the tool "
+            "axis swings {:.3g}° off a way of {:.3g}°",
+            cl_line, base::degFromRad(travel), base::degFromRad(stray.axis_rad), base::degFromRad(turn)));
 }
 
 void Alignment::finish() {
