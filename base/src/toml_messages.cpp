@@ -33,20 +33,6 @@ std::size_t skipToken(std::string_view text, std::size_t i) {
     return text.size();
 }
 
-bool isBeyondAscii(char c) { return static_cast<unsigned char>(c) >= 0x80U; }
-
-/// Whether in this multi-line text the first character behind a line-ending backslash is beyond ASCII.
-bool continuesBeyondAscii(std::string_view token) {
-    if (!token.starts_with("\"\"\"")) return false;
-    for (std::size_t i = token.find('\\'); i < token.size(); i = token.find('\\', i)) {
-        const std::size_t next = token.find_first_not_of(" \t\r\n", i + 1);
-        if (next == std::string_view::npos) return false;
-        if (isBeyondAscii(token[next])) return true;
-        i = std::max(next, i + 2);
-    }
-    return false;
-}
-
 void replaceAll(std::string& text, std::string_view from, std::string_view to) {
     for (std::size_t i = text.find(from); i != std::string::npos; i = text.find(from, i + to.size()))
         text.replace(i, from.size(), to);
@@ -54,18 +40,13 @@ void replaceAll(std::string& text, std::string_view from, std::string_view to) {
 
 }  // namespace
 
-std::optional<TextProblem> findTextProblem(std::string_view text) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+std::optional<std::size_t> lineWithTooDeepKey(std::string_view text) {
     std::size_t line = 1;
     std::size_t parts = 1;
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i];
         const std::size_t next = skipToken(text, i);
-        if (continuesBeyondAscii(text.substr(i, next - i)))
-            return TextProblem{line, "a line-ending backslash before a character beyond ASCII; join the lines"};
-        if (isBeyondAscii(c)) return TextProblem{line, "a character that needs quotes around it"};
-        if (c == '.' && ++parts > max_key_parts) return TextProblem{line, "a key of more than 32 parts"};
+        if (c == '.' && ++parts > max_key_parts) return line;
         if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) parts = 1;
         line += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
                                                     text.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
