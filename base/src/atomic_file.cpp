@@ -99,7 +99,7 @@ Result<std::string> readWholeFile(const std::string& path, std::size_t max_bytes
     const int descriptor = is_input ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return ioFailure("io.open", "cannot open this file", errno, name);
     std::string out;
-    struct stat status {};
+    struct stat status{};
     if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0)
         out.reserve(std::min(max_bytes, static_cast<std::size_t>(status.st_size)) + 1);
     std::string block(buffer_bytes, '\0');
@@ -129,7 +129,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
     AtomicFile file;
     file.path_ = path;
     if (path.empty()) return ioFailure("io.open", doing, ENOENT, path);
-    struct stat status {};
+    struct stat status{};
     const bool exists = ::stat(path.c_str(), &status) == 0;
     if (exists && S_ISDIR(status.st_mode)) return ioFailure("io.open", doing, EISDIR, path);
     if (exists && !S_ISREG(status.st_mode)) {
@@ -147,8 +147,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
     if (exists) {
         // Only the superuser may give files away; for everybody else the owner is the writer, as with any editor.
         static_cast<void>(::fchown(file.descriptor_, status.st_uid, status.st_gid));
-        if (::fchmod(file.descriptor_, status.st_mode & 07777U) != 0)
-            return file.abandon("io.open", doing, errno);
+        if (::fchmod(file.descriptor_, status.st_mode & 07777U) != 0) return file.abandon("io.open", doing, errno);
     }
     return file;
 }

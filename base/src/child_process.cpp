@@ -118,7 +118,7 @@ tl::unexpected<Diagnostics> processFailure(std::string_view code, const std::str
 }
 
 bool isExecutableFile(const std::string& path) {
-    struct stat status {};
+    struct stat status{};
     return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
 }
 
@@ -155,9 +155,7 @@ void setLimit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
     static_cast<void>(::setrlimit(resource, &wanted));
 }
 
-rlim_t wholeSeconds(double seconds) {
-    return static_cast<rlim_t>(std::clamp(std::ceil(seconds), 1.0, 1e9));
-}
+rlim_t wholeSeconds(double seconds) { return static_cast<rlim_t>(std::clamp(std::ceil(seconds), 1.0, 1e9)); }
 
 /// Runs between fork and exec: system calls only, no memory, no locks.
 [[noreturn]] void becomeProgram(const char* path, char* const* argv, const Pipes& pipes, const ProcessLimits& limits,
@@ -174,8 +172,7 @@ rlim_t wholeSeconds(double seconds) {
             const rlim_t seconds = wholeSeconds(limits.cpu_s);
             setLimit(RLIMIT_CPU, seconds, seconds + 1);
         }
-        if (limits.address_space_bytes > 0)
-            setLimit(RLIMIT_AS, limits.address_space_bytes, limits.address_space_bytes);
+        if (limits.address_space_bytes > 0) setLimit(RLIMIT_AS, limits.address_space_bytes, limits.address_space_bytes);
         setLimit(RLIMIT_CORE, 0, 0);
         static_cast<void>(std::signal(SIGPIPE, SIG_DFL));
         static_cast<void>(::sigprocmask(SIG_SETMASK, &signal_mask, nullptr));

@@ -77,7 +77,8 @@ bool isBareKey(std::string_view key) {
 
 std::string numberText(double value, int digits) {
     std::array<char, 64> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
+    const auto end =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
     return {buffer.data(), end.ptr};
 }
 
@@ -110,11 +111,13 @@ void readValue(const TomlNode& node, const FieldInfo& info, double& out, Diagnos
     if (!written) return reportWrongType(node, info, report);
     const double inside = unitOfKey(info.key).toInside(*written);
     if (!std::isfinite(*written) || !std::isfinite(inside)) {
-        report.error("toml.range", fmt::format("must be a finite number, found {}", numberText(*written, 15)), node.where());
+        report.error("toml.range", fmt::format("must be a finite number, found {}", numberText(*written, 15)),
+                     node.where());
         return;
     }
     if (inside == 0.0 && *written != 0.0) {
-        report.error("toml.range", fmt::format("{} is too small to tell from zero", numberText(*written, 15)), node.where());
+        report.error("toml.range", fmt::format("{} is too small to tell from zero", numberText(*written, 15)),
+                     node.where());
         return;
     }
     if (reportRange(*written, node, info, report)) return;

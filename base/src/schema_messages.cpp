@@ -124,17 +124,18 @@ std::string rangeText(const FieldRules& rules) {
 std::string expectedText(const FieldInfo& info) {
     const std::string unit = displayUnit(unitOfKey(info.key));
     const std::string unit_text = unit.empty() ? "" : " in " + unit;
-    if (info.type.starts_with('"') || info.type == "true or false" || info.type == "named tables")
-        return info.type;
+    if (info.type.starts_with('"') || info.type == "true or false" || info.type == "named tables") return info.type;
     return article(info.type) + unit_text;
 }
 
 void reportWrongType(const TomlNode& node, const FieldInfo& info, Diagnostics& report) {
-    report.error("toml.wrong-type", fmt::format("expected {}, found {}", expectedText(info), foundText(node)), node.where());
+    report.error("toml.wrong-type", fmt::format("expected {}, found {}", expectedText(info), foundText(node)),
+                 node.where());
 }
 
 void reportMissing(const TomlNode& table, const FieldInfo& info, Diagnostics& report) {
-    report.error("toml.missing-key", fmt::format("this key is missing: {}", expectedText(info)), table.whereKey(info.key));
+    report.error("toml.missing-key", fmt::format("this key is missing: {}", expectedText(info)),
+                 table.whereKey(info.key));
 }
 
 void reportNotATable(const TomlNode& node, Diagnostics& report) {
@@ -154,7 +155,8 @@ void reportUnknownKeys(const TomlNode& table, const std::vector<std::vector<Fiel
     for (const std::string& name : names)
         if (!contains(keys, name)) candidates.push_back(name);
     for (const std::string& key : keys)
-        if (!contains(names, key)) report.error("toml.unknown-key", unknownKeyMessage(key, candidates), table.whereKey(key));
+        if (!contains(names, key))
+            report.error("toml.unknown-key", unknownKeyMessage(key, candidates), table.whereKey(key));
 }
 
 }  // namespace cusp::base

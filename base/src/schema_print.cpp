@@ -79,7 +79,8 @@ void ConfigPrinter::value(const FieldInfo& info, const std::string& text) {
         body += "# " + quoteTomlKey(info.key) + " =\n";
 }
 
-void ConfigPrinter::open(std::string_view before, const std::string& key, std::string_view after, std::string_view doc) {
+void ConfigPrinter::open(std::string_view before, const std::string& key, std::string_view after,
+                         std::string_view doc) {
     path_.push_back(path_.empty() ? key : path_.back() + "." + key);
     open_.push_back(tables_.size());
     std::string header = docs_ == PrintDocs::Yes ? commentLines(doc) : std::string();

@@ -43,7 +43,7 @@ protected:
         return out.str();
     }
     static mode_t modeOf(const std::string& path) {
-        struct stat status {};
+        struct stat status{};
         return ::stat(path.c_str(), &status) == 0 ? status.st_mode & 07777U : 0;
     }
 

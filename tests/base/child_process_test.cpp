@@ -6,8 +6,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <fcntl.h>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <string>
@@ -182,8 +182,8 @@ TEST(ChildProcess, DoesNotWaitForDaemons) {
     ASSERT_EQ(::mkfifo(go.c_str(), 0600), 0);
     const int gate = ::open(go.c_str(), O_RDWR | O_CLOEXEC);  // the daemon lives until this closes
     ASSERT_GE(gate, 0);
-    const auto run = shell("setsid sh -c 'exec 3<" + go + "; echo up >" + ready + "; read line <&3' & read line <" + ready +
-                               "; echo gone",
+    const auto run = shell("setsid sh -c 'exec 3<" + go + "; echo up >" + ready + "; read line <&3' & read line <" +
+                               ready + "; echo gone",
                            {.wall_s = 60.0});
     ::close(gate);
     std::filesystem::remove_all(folder);

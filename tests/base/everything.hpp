@@ -82,7 +82,8 @@ inline const Section<Everything>& everythingSection() {
         out.field("plain", &Everything::plain, "A number without a unit.");
         out.field("lead_deg", &Everything::lead_rad, "An angle.", {.min = -180.0, .max = 180.0});
         out.field("feed_mm_per_min", &Everything::feed_mm_per_s, "A feed.");
-        out.field("limited", &Everything::limited, "A number in bounds.", {.min = 0.0, .max = 10.0, .min_exclusive = true});
+        out.field("limited", &Everything::limited, "A number in bounds.",
+                  {.min = 0.0, .max = 10.0, .min_exclusive = true});
         out.field("positive_mm", &Everything::positive_mm, "A length.", positive());
         out.field("count", &Everything::count, "A count.", {.min = 1.0});
         out.field("on", &Everything::on, "A switch.");

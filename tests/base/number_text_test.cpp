@@ -32,8 +32,8 @@ TEST(NumberText, ReadsShopFloorSpellings) {
 }
 
 TEST(NumberText, RefusesEverythingElse) {
-    for (const char* text : {"", " 1", "1 ", "+", "-", ".", "+-1", "-+1", "--1", "1,5", "1.2.3", "1e", "1e+", "inf", "-inf",
-                             "nan", "0x10", "1e999", "1e-999", "1d3", "one", "1_000"})
+    for (const char* text : {"",   " 1",  "1 ",  "+",    "-",   ".",    "+-1",   "-+1",    "--1", "1,5", "1.2.3",
+                             "1e", "1e+", "inf", "-inf", "nan", "0x10", "1e999", "1e-999", "1d3", "one", "1_000"})
         EXPECT_FALSE(parseDouble(text).has_value()) << '"' << text << '"';
     for (const char* text : {"", "+", "-", "+-1", "1.", "1.0", "9223372036854775808", " 1", "0x1", "1e3"})
         EXPECT_FALSE(parseInteger(text).has_value()) << '"' << text << '"';

@@ -34,7 +34,8 @@ TEST(Random, XoshiroKnowsThePublishedOutput) {
     for (const std::uint64_t expected :
          {std::uint64_t{11520}, std::uint64_t{0}, std::uint64_t{1509978240}, std::uint64_t{1215971899390074240U},
           std::uint64_t{1216172134540287360U}, std::uint64_t{607988272756665600U}, std::uint64_t{16172922978634559625U},
-          std::uint64_t{8476171486693032832U}, std::uint64_t{10595114339597558777U}, std::uint64_t{2904607092377533576U}})
+          std::uint64_t{8476171486693032832U}, std::uint64_t{10595114339597558777U},
+          std::uint64_t{2904607092377533576U}})
         EXPECT_EQ(random.next(), expected);
 }
 

@@ -21,7 +21,8 @@ constexpr std::string_view mark = "# expect: ";
 
 TEST(Reject, EveryFileGivesExactlyItsDiagnostics) {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(fs::path(CUSP_SOURCE_DIR) / "tests/base/reject")) files.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(fs::path(CUSP_SOURCE_DIR) / "tests/base/reject"))
+        files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     EXPECT_GE(files.size(), 40U);
     for (const fs::path& path : files) {

@@ -46,8 +46,9 @@ max_deg = 57.29577951308232
 TEST(SchemaPrint, DocumentationAsComments) {
     Axis axis;
     axis.max_rad = radFromDeg(90.0);
-    EXPECT_EQ(axisSection().toToml(axis, PrintDocs::Yes),
-              "# Lower end of travel.\nmin_deg = 0\n# Upper end of travel.\nmax_deg = 90\n# Where it rests.\n# home_deg =\n");
+    EXPECT_EQ(
+        axisSection().toToml(axis, PrintDocs::Yes),
+        "# Lower end of travel.\nmin_deg = 0\n# Upper end of travel.\nmax_deg = 90\n# Where it rests.\n# home_deg =\n");
     Everything value;
     value.axes["B C"] = axis;
     const std::string text = everythingSection().toToml(value, PrintDocs::Yes);
@@ -63,12 +64,13 @@ TEST(SchemaPrint, NumbersStayAsTheyWereWritten) {
         const char* text;
     };
     const double pi = std::numbers::pi;
-    for (const Case& c : {Case{"a_deg", radFromDeg(-120.0), "-120"}, Case{"a_deg", -2.0 * pi / 3.0, "-120"},
-                          Case{"v_mm_per_min", 20000.0 / 60.0, "20000"}, Case{"v_m_per_min", 20.0 * 1000.0 / 60.0, "20"},
-                          Case{"x_percent", 0.07, "7"}, Case{"x_um", 0.0123, "12.3"}, Case{"x", 0.1, "0.1"},
-                          Case{"x", -0.0, "0"}, Case{"x", 1e300, "1e+300"}, Case{"x", 1e-7, "1e-07"},
-                          Case{"x_deg", radFromDeg(0.1), "0.1"}, Case{"x_deg", radFromDeg(359.99999), "359.99999"},
-                          Case{"d_inch", 12.7, "0.5"}, Case{"x", 1.0 / 3.0, "0.3333333333333333"}})
+    for (const Case& c :
+         {Case{"a_deg", radFromDeg(-120.0), "-120"}, Case{"a_deg", -2.0 * pi / 3.0, "-120"},
+          Case{"v_mm_per_min", 20000.0 / 60.0, "20000"}, Case{"v_m_per_min", 20.0 * 1000.0 / 60.0, "20"},
+          Case{"x_percent", 0.07, "7"}, Case{"x_um", 0.0123, "12.3"}, Case{"x", 0.1, "0.1"}, Case{"x", -0.0, "0"},
+          Case{"x", 1e300, "1e+300"}, Case{"x", 1e-7, "1e-07"}, Case{"x_deg", radFromDeg(0.1), "0.1"},
+          Case{"x_deg", radFromDeg(359.99999), "359.99999"}, Case{"d_inch", 12.7, "0.5"},
+          Case{"x", 1.0 / 3.0, "0.3333333333333333"}})
         EXPECT_EQ(printValue(c.inside, describeField<double>(c.key, "", {})), c.text) << c.key;
 }
 
@@ -96,21 +98,23 @@ TEST(SchemaPrint, DocumentationPage) {
     machine.field("name", &Machine::name, "Its name.", required());
     machine.named("rotary", &Machine::rotary, axis, required());
     machine.tables("step", &Machine::steps, step);
-    const std::string axis_table = "| key | type | unit | default | demanded | meaning |\n|---|---|---|---|---|---|\n"
-                                   "| `min_deg` | number | deg |  | required, between -360 and 0 | Lower \\| end of travel. |\n"
-                                   "| `max_deg` | number | deg | `57.29577951308232` | greater than 0 | Upper end. |\n"
-                                   "| `home_deg` | number | deg |  |  | Rest. |\n";
-    EXPECT_EQ(schemaMarkdown("Machine file", "One machine.", machine.describe()),
-              "# Machine file\n\nOne machine.\n\n"
-              "| key | type | unit | default | demanded | meaning |\n|---|---|---|---|---|---|\n"
-              "| `name` | text |  |  | required | Its name. |\n\n"
-              "## `[rotary.NAME]`\n\nA rotary axis.\n\nOne table per name; the names are yours to choose.\n\nRequired.\n\n" +
-                  axis_table +
-                  "\n## `[[step]]`\n\nA step.\n\n"
-                  "| key | type | unit | default | demanded | meaning |\n|---|---|---|---|---|---|\n"
-                  "| `name` | text |  |  | required | Its name. |\n\n"
-                  "## `[step.axis]`\n\nA rotary axis.\n\n" +
-                  axis_table);
+    const std::string axis_table =
+        "| key | type | unit | default | demanded | meaning |\n|---|---|---|---|---|---|\n"
+        "| `min_deg` | number | deg |  | required, between -360 and 0 | Lower \\| end of travel. |\n"
+        "| `max_deg` | number | deg | `57.29577951308232` | greater than 0 | Upper end. |\n"
+        "| `home_deg` | number | deg |  |  | Rest. |\n";
+    EXPECT_EQ(
+        schemaMarkdown("Machine file", "One machine.", machine.describe()),
+        "# Machine file\n\nOne machine.\n\n"
+        "| key | type | unit | default | demanded | meaning |\n|---|---|---|---|---|---|\n"
+        "| `name` | text |  |  | required | Its name. |\n\n"
+        "## `[rotary.NAME]`\n\nA rotary axis.\n\nOne table per name; the names are yours to choose.\n\nRequired.\n\n" +
+            axis_table +
+            "\n## `[[step]]`\n\nA step.\n\n"
+            "| key | type | unit | default | demanded | meaning |\n|---|---|---|---|---|---|\n"
+            "| `name` | text |  |  | required | Its name. |\n\n"
+            "## `[step.axis]`\n\nA rotary axis.\n\n" +
+            axis_table);
 }
 
 }  // namespace

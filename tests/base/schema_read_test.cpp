@@ -42,7 +42,8 @@ axis = {min_deg = -90}
 [axes.A]
 [axes."B C"]
 min_deg = -180
-)", report);
+)",
+                                            report);
     EXPECT_EQ(toText(report), "");
     EXPECT_DOUBLE_EQ(value.lead_rad, pi / 2);
     EXPECT_EQ(value.feed_mm_per_s, mmPerSFromMmPerMin(20000.0));
@@ -65,24 +66,24 @@ min_deg = -180
 
 TEST(SchemaRead, EveryProblemAtOnceInFileOrder) {
     Diagnostics report;
-    static_cast<void>(readEverything("plain = \"1\"\ncount = 0\ncolor = 1\nlead = 3\n[axes.A]\nmin = 1\nmin_deg = []\n[[step]]\n",
-                                     report));
-    EXPECT_EQ(toText(report),
-              "T.toml:1:9: error: plain: expected a number, found \"1\" [toml.wrong-type]\n"
-              "T.toml:2:9: error: count: must be at least 1, found 0 [toml.range]\n"
-              "T.toml:8:1: error: step[0].name: this key is missing: a text [toml.missing-key]\n"
-              "T.toml:7:11: error: axes.A.min_deg: expected a number in deg, found a list of 0 values [toml.wrong-type]\n"
-              "T.toml:6:1: error: axes.A.min: unknown key [toml.unknown-key]\n"
-              "T.toml:3:1: error: color: unknown key; did you mean `colour`? [toml.unknown-key]\n"
-              "T.toml:4:1: error: lead: unknown key; write the value in deg: `lead_deg` [toml.unknown-key]\n");
+    static_cast<void>(readEverything(
+        "plain = \"1\"\ncount = 0\ncolor = 1\nlead = 3\n[axes.A]\nmin = 1\nmin_deg = []\n[[step]]\n", report));
+    EXPECT_EQ(
+        toText(report),
+        "T.toml:1:9: error: plain: expected a number, found \"1\" [toml.wrong-type]\n"
+        "T.toml:2:9: error: count: must be at least 1, found 0 [toml.range]\n"
+        "T.toml:8:1: error: step[0].name: this key is missing: a text [toml.missing-key]\n"
+        "T.toml:7:11: error: axes.A.min_deg: expected a number in deg, found a list of 0 values [toml.wrong-type]\n"
+        "T.toml:6:1: error: axes.A.min: unknown key [toml.unknown-key]\n"
+        "T.toml:3:1: error: color: unknown key; did you mean `colour`? [toml.unknown-key]\n"
+        "T.toml:4:1: error: lead: unknown key; write the value in deg: `lead_deg` [toml.unknown-key]\n");
 }
 
 TEST(SchemaRead, ChecksRunOnlyOnTablesWithoutErrors) {
     Diagnostics report;
     static_cast<void>(readEverything("[axis]\nmin_deg = 200\n[tail]\nmin_deg = 200\nextra = 1\n", report));
-    EXPECT_EQ(toText(report),
-              "T.toml:2:1: error: axis.min_deg: the lower end lies above the upper end [test.order]\n"
-              "T.toml:5:1: error: tail.extra: unknown key [toml.unknown-key]\n");
+    EXPECT_EQ(toText(report), "T.toml:2:1: error: axis.min_deg: the lower end lies above the upper end [test.order]\n"
+                              "T.toml:5:1: error: tail.extra: unknown key [toml.unknown-key]\n");
 }
 
 TEST(SchemaRead, SharedTablesLeaveUnknownKeysToTheirReader) {

@@ -30,9 +30,11 @@ double drawInside(Random& random, const char* key, double low, double high) {
 }
 
 std::string drawText(Random& random) {
-    static const std::vector<std::string> pieces{"a", "Z9", " ", "\"", "\\", "\n", "\t", "\x01", "\x7F", "ü", "刀", ".", "#", "'", "= ["};
+    static const std::vector<std::string> pieces{"a",    "Z9", " ",  "\"", "\\", "\n", "\t", "\x01",
+                                                 "\x7F", "ü",  "刀", ".",  "#",  "'",  "= ["};
     std::string out;
-    for (std::uint64_t i = random.below(8); i > 0; --i) out += pieces[static_cast<std::size_t>(random.below(pieces.size()))];
+    for (std::uint64_t i = random.below(8); i > 0; --i)
+        out += pieces[static_cast<std::size_t>(random.below(pieces.size()))];
     return out;
 }
 
@@ -56,7 +58,8 @@ Everything drawEverything(Random& random) {
     out.name = drawText(random);
     for (double& x : out.direction) x = drawInside(random, "x", -1.0, 1.0);
     for (double& x : out.size_mm) x = drawInside(random, "x_mm", -1e4, 1e4);
-    for (std::uint64_t i = random.below(4); i > 0; --i) out.angles_rad.push_back(drawInside(random, "x_deg", -720.0, 720.0));
+    for (std::uint64_t i = random.below(4); i > 0; --i)
+        out.angles_rad.push_back(drawInside(random, "x_deg", -720.0, 720.0));
     out.names.clear();
     for (std::uint64_t i = random.below(4); i > 0; --i) out.names.push_back(drawText(random));
     for (std::uint64_t i = random.below(4); i > 0; --i)
@@ -92,11 +95,12 @@ TEST(SchemaRoundTrip, WrittenNumbersComeBackAsWritten) {
     constexpr std::uint64_t seed = 20240613;
     RecordProperty("seed", std::to_string(seed));
     Random random(seed);
-    for (const char* key : {"x", "x_mm", "x_um", "x_deg", "x_mm_per_min", "x_m_per_min", "x_deg_per_min", "x_percent", "x_inch",
-                            "x_ms", "x_hours", "x_kw"})
+    for (const char* key : {"x", "x_mm", "x_um", "x_deg", "x_mm_per_min", "x_m_per_min", "x_deg_per_min", "x_percent",
+                            "x_inch", "x_ms", "x_hours", "x_kw"})
         for (int i = 0; i < 5000; ++i) {
             const std::string digits = std::to_string(random.integer(1, 999999));
-            const std::string written = (random.chance(0.5) ? "-" : "") + digits + "." + std::to_string(random.integer(0, 99999)) + "1";
+            const std::string written =
+                (random.chance(0.5) ? "-" : "") + digits + "." + std::to_string(random.integer(0, 99999)) + "1";
             const FieldInfo info = describeField<double>(key, "", {});
             ASSERT_EQ(printValue(unitOfKey(key).toInside(std::stod(written)), info), written) << key;
         }

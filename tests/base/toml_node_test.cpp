@@ -27,7 +27,8 @@ std::string repeat(std::string_view piece, std::size_t count) {
 }
 
 TEST(TomlNode, ValuesByType) {
-    const auto document = TomlDocument::parse("i = 3\nf = 2.5\nt = \"x\"\nb = true\nl = [1]\nd = 2024-01-02\n[s]\n", "T");
+    const auto document =
+        TomlDocument::parse("i = 3\nf = 2.5\nt = \"x\"\nb = true\nl = [1]\nd = 2024-01-02\n[s]\n", "T");
     ASSERT_TRUE(document.has_value());
     const TomlNode root = document->root();
     EXPECT_EQ(root.at("i")->integer(), 3);
@@ -53,7 +54,8 @@ TEST(TomlNode, KeysKeepTheOrderOfTheFile) {
 
 TEST(TomlNode, PlacesAndPaths) {
     const auto document = TomlDocument::parse("[rotary.A]\nmin_deg = -120\n\n[[anchor]]\n[[anchor]]\n"
-                                              "tool_axis = [0,\n 1]\n[rotary.\"B C\"]\nx = 1\n", "M.toml");
+                                              "tool_axis = [0,\n 1]\n[rotary.\"B C\"]\nx = 1\n",
+                                              "M.toml");
     ASSERT_TRUE(document.has_value());
     const TomlNode root = document->root();
     const Location min = root.at("rotary")->at("A")->at("min_deg")->where();
@@ -85,7 +87,13 @@ TEST(TomlNode, OutlivesItsText) {
 }
 
 TEST(TomlNode, ByteOrderMarkAndLineEndings) {
-    EXPECT_EQ(TomlDocument::parse("\xEF\xBB\xBF" "a = 1\r\nb = 2\r\n", "T")->root().keys().size(), 2U);
+    EXPECT_EQ(TomlDocument::parse("\xEF\xBB\xBF"
+                                  "a = 1\r\nb = 2\r\n",
+                                  "T")
+                  ->root()
+                  .keys()
+                  .size(),
+              2U);
     EXPECT_EQ(TomlDocument::parse("", "T")->root().keys().size(), 0U);
     EXPECT_EQ(TomlDocument::parse("a = 1", "T")->root().at("a")->integer(), 1);
 }
@@ -95,9 +103,10 @@ TEST(TomlNode, NestingDoesNotOverflowTheStack) {
     for (const std::string& text : {"a = " + repeat("[", 100000), "a = " + repeat("[", 100000) + repeat("]", 100000),
                                     "a = " + repeat("{b=", 100000)})
         EXPECT_NE(errorOf(text).find(too_deep), std::string::npos) << errorOf(text);
-    for (const std::string& text : {repeat("a.", 1000000) + "a = 1\n", "[" + repeat("a.", 1000000) + "a]\n",
-                                    "x = {" + repeat("a . ", 1000000) + "a = 1}\n", "[" + repeat("\"a\".", 100000) + "a]\n",
-                                    "x = [ \"\"\"a\"\"\"\", {" + repeat("a.", 100000) + "a = 1} ]\n"})
+    for (const std::string& text :
+         {repeat("a.", 1000000) + "a = 1\n", "[" + repeat("a.", 1000000) + "a]\n",
+          "x = {" + repeat("a . ", 1000000) + "a = 1}\n", "[" + repeat("\"a\".", 100000) + "a]\n",
+          "x = [ \"\"\"a\"\"\"\", {" + repeat("a.", 100000) + "a = 1} ]\n"})
         EXPECT_EQ(errorOf(text), "T.toml:1: error: a key of more than 32 parts [toml.syntax]\n");
     EXPECT_EQ(errorOf("a = " + repeat("[", 31) + repeat("]", 31)), "no error");
     EXPECT_EQ(errorOf(repeat("a.", 31) + "a = 1"), "no error");
@@ -105,7 +114,8 @@ TEST(TomlNode, NestingDoesNotOverflowTheStack) {
 
 TEST(TomlNode, DotsInTextsAndCommentsAreNoDepth) {
     const std::string dots = repeat(".", 1000);
-    EXPECT_EQ(errorOf("# " + dots + "\na = \"" + dots + "\" # " + dots + "\nb = '''\n'" + dots + "'''\nc = \"\\\"" + dots + "\"\n"),
+    EXPECT_EQ(errorOf("# " + dots + "\na = \"" + dots + "\" # " + dots + "\nb = '''\n'" + dots + "'''\nc = \"\\\"" +
+                      dots + "\"\n"),
               "no error");
     EXPECT_EQ(errorOf("a = \"\"\"\nx\n\"\"\"\n" + repeat("a.", 40) + "a = 1"),
               "T.toml:4: error: a key of more than 32 parts [toml.syntax]\n");
@@ -114,12 +124,14 @@ TEST(TomlNode, DotsInTextsAndCommentsAreNoDepth) {
 TEST(TomlNode, SizeIsLimited) {
     const std::size_t limit = std::size_t{16} << 20U;
     EXPECT_EQ(errorOf(std::string(limit, '\n')), "no error");
-    EXPECT_EQ(errorOf(std::string(limit + 1, '\n')),
-              "T.toml: error: this file is larger than 16 MiB; a machine, tool or job file never is [toml.too-large]\n");
+    EXPECT_EQ(
+        errorOf(std::string(limit + 1, '\n')),
+        "T.toml: error: this file is larger than 16 MiB; a machine, tool or job file never is [toml.too-large]\n");
     const auto endless = TomlDocument::readFile("/dev/zero");
     ASSERT_FALSE(endless.has_value());
-    EXPECT_EQ(toText(endless.error()),
-              "/dev/zero: error: this file is larger than 16 MiB; a machine, tool or job file never is [toml.too-large]\n");
+    EXPECT_EQ(
+        toText(endless.error()),
+        "/dev/zero: error: this file is larger than 16 MiB; a machine, tool or job file never is [toml.too-large]\n");
 }
 
 TEST(TomlNode, ReadsFilesAndSaysWhyNot) {

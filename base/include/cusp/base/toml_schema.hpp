@@ -48,22 +48,21 @@ public:
     /// std::map<std::string, …> of those (named numbers: `rotary_deg = {A = 10}`); std::optional of any of these (an
     /// absent key leaves it as it is by default, which should be empty: TOML cannot write "nothing").
     template <class V>
-    Section& field(std::string key, V T::*member, std::string doc, FieldRules rules = {}) {
+    Section& field(std::string key, V T::* member, std::string doc, FieldRules rules = {}) {
         FieldInfo info = describeField<V>(std::move(key), std::move(doc), rules);
         info.default_text = rules.required ? "" : printValue(T{}.*member, info);
-        fields_.push_back({info,
-                           [member, info](T& out, const TomlNode& node, Diagnostics& report) {
-                               readValue(node, info, out.*member, report);
-                           },
-                           [member, info](const T& value, ConfigPrinter& out) {
-                               out.value(info, printValue(value.*member, info));
-                           }});
+        fields_.push_back(
+            {info,
+             [member, info](T& out, const TomlNode& node, Diagnostics& report) {
+                 readValue(node, info, out.*member, report);
+             },
+             [member, info](const T& value, ConfigPrinter& out) { out.value(info, printValue(value.*member, info)); }});
         return *this;
     }
 
     /// One of a fixed set of words; for an optional member, or no such key.
     template <class M>
-    Section& choice(std::string key, M T::*member, Words<M> words, std::string doc, FieldRules rules = {}) {
+    Section& choice(std::string key, M T::* member, Words<M> words, std::string doc, FieldRules rules = {}) {
         FieldInfo info;
         info.key = std::move(key);
         info.doc = std::move(doc);
@@ -75,25 +74,24 @@ public:
             return std::string();
         };
         info.default_text = rules.required ? "" : word_of(T{}.*member);
-        fields_.push_back({info,
-                           [member, words, info](T& out, const TomlNode& node, Diagnostics& report) {
-                               const auto text = node.text();
-                               for (const auto& [word, meaning] : words)
-                                   if (text && *text == word) {
-                                       out.*member = meaning;
-                                       return;
-                                   }
-                               reportWrongType(node, info, report);
-                           },
-                           [member, word_of, info](const T& value, ConfigPrinter& out) {
-                               out.value(info, word_of(value.*member));
-                           }});
+        fields_.push_back(
+            {info,
+             [member, words, info](T& out, const TomlNode& node, Diagnostics& report) {
+                 const auto text = node.text();
+                 for (const auto& [word, meaning] : words)
+                     if (text && *text == word) {
+                         out.*member = meaning;
+                         return;
+                     }
+                 reportWrongType(node, info, report);
+             },
+             [member, word_of, info](const T& value, ConfigPrinter& out) { out.value(info, word_of(value.*member)); }});
         return *this;
     }
 
     /// A nested table `[key]`.
     template <class U>
-    Section& table(std::string key, U T::*member, Section<U> section, FieldRules rules = {}) {
+    Section& table(std::string key, U T::* member, Section<U> section, FieldRules rules = {}) {
         FieldInfo info = nestedInfo(std::move(key), section.doc(), "table", rules, section.describe());
         fields_.push_back({info,
                            [member, section](T& out, const TomlNode& node, Diagnostics& report) {
@@ -107,7 +105,7 @@ public:
 
     /// A nested table that may be absent; the member is empty then.
     template <class U>
-    Section& table(std::string key, std::optional<U> T::*member, Section<U> section, FieldRules rules = {}) {
+    Section& table(std::string key, std::optional<U> T::* member, Section<U> section, FieldRules rules = {}) {
         FieldInfo info = nestedInfo(std::move(key), section.doc(), "table", rules, section.describe());
         fields_.push_back({info,
                            [member, section](T& out, const TomlNode& node, Diagnostics& report) {
@@ -122,7 +120,7 @@ public:
 
     /// An array of tables `[[key]]`.
     template <class U>
-    Section& tables(std::string key, std::vector<U> T::*member, Section<U> section, FieldRules rules = {}) {
+    Section& tables(std::string key, std::vector<U> T::* member, Section<U> section, FieldRules rules = {}) {
         FieldInfo info = nestedInfo(std::move(key), section.doc(), "array of tables", rules, section.describe());
         fields_.push_back({info,
                            [member, section, info](T& out, const TomlNode& node, Diagnostics& report) {
@@ -142,14 +140,15 @@ public:
 
     /// Tables under names the user chooses: `[key.NAME]`. Order is the order of the names.
     template <class U>
-    Section& named(std::string key, std::map<std::string, U> T::*member, Section<U> section, FieldRules rules = {}) {
+    Section& named(std::string key, std::map<std::string, U> T::* member, Section<U> section, FieldRules rules = {}) {
         FieldInfo info = nestedInfo(std::move(key), section.doc(), "named tables", rules, section.describe());
         fields_.push_back({info,
                            [member, section, info](T& out, const TomlNode& node, Diagnostics& report) {
                                if (!node.isTable()) return reportWrongType(node, info, report);
                                std::map<std::string, U> values;
                                for (const std::string& name : node.keys())
-                                   if (const auto element = node.at(name)) values[name] = section.read(*element, report);
+                                   if (const auto element = node.at(name))
+                                       values[name] = section.read(*element, report);
                                out.*member = std::move(values);
                            },
                            [member, section, info](const T& value, ConfigPrinter& out) {
