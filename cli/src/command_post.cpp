@@ -148,7 +148,7 @@ void addPostCommand(CLI::App& app, Action& action) {
     post->add_option("-o,--output", flags->output, "Program to write; - for standard output.")->required();
     post->add_option("--config", flags->config, "Job file with a [post] table; flags win over it.");
     post->add_option("--dialect", flags->dialect, "Who wrote the CL file, when it cannot be told from the text.")
-        ->check(CLI::IsMember({"nx", "catia", "apt"}));
+        ->check(CLI::IsMember({"nx", "catia", "solidworks", "apt"}));
     post->add_option("--units", flags->units, "Unit of lengths, when the CL file does not say.")
         ->check(CLI::IsMember({"mm", "inch"}));
     post->add_option("--name", flags->program_name, "Program name, at most 24 letters, digits, underscores.");

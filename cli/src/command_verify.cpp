@@ -123,7 +123,7 @@ void addVerifyCommand(CLI::App& app, Action& action) {
     verify->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")->required();
     verify->add_option("--against", flags->against, "CL file the program must follow.");
     verify->add_option("--dialect", flags->dialect, "Who wrote the CL file, when it cannot be told from the text.")
-        ->check(CLI::IsMember({"nx", "catia", "apt"}));
+        ->check(CLI::IsMember({"nx", "catia", "solidworks", "apt"}));
     verify->add_option("--units", flags->units, "Unit of lengths, when the CL file does not say.")
         ->check(CLI::IsMember({"mm", "inch"}));
     verify->add_option("--work-offset", flags->work_offset, "Work offset the program must run in, when not the machine file's.");

@@ -57,8 +57,10 @@ bool interrupted() {
     return interrupt_seen != 0;
 }
 
-void watchForInterrupt() {
+void watchForSignals() {
     std::signal(SIGINT, onInterrupt);
+    // A closed pipe behind stdout is a failed write with an exit code, not a silent death.
+    std::signal(SIGPIPE, SIG_IGN);
 }
 
 }  // namespace cusp::cli

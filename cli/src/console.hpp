@@ -29,6 +29,6 @@ void sayJson(const base::Json& summary);
 
 /// After Ctrl-C: long loops ask and leave tidily, so that no temporary file stays behind.
 [[nodiscard]] bool interrupted();
-void watchForInterrupt();
+void watchForSignals();
 
 }  // namespace cusp::cli

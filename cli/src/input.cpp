@@ -16,6 +16,7 @@ toolpath::ClReaderOptions clReaderOptions(const std::string& dialect, const std:
     toolpath::ClReaderOptions options;
     if (dialect == "nx") options.dialect = toolpath::Dialect::Nx;
     if (dialect == "catia") options.dialect = toolpath::Dialect::Catia;
+    if (dialect == "solidworks") options.dialect = toolpath::Dialect::SolidWorksCam;
     if (dialect == "apt") options.dialect = toolpath::Dialect::Apt;
     if (units == "mm") options.mm_per_unit = 1.0;
     if (units == "inch") options.mm_per_unit = base::mm_per_inch;

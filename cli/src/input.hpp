@@ -15,7 +15,7 @@
 
 namespace cusp::cli {
 
-/// `dialect`: "", "nx", "catia", "apt"; `units`: "", "mm", "inch" (checked by the command line).
+/// `dialect`: "", "nx", "catia", "solidworks", "apt"; `units`: "", "mm", "inch" (checked by the command line).
 [[nodiscard]] toolpath::ClReaderOptions clReaderOptions(const std::string& dialect, const std::string& units, bool strict);
 
 /// The file name without its folder; "-" as "standard input".

@@ -30,7 +30,7 @@ ExitCode run(int argc, char** argv) {
         const int code = app.exit(error);
         return code == 0 ? ExitCode::Done : ExitCode::Usage;
     }
-    cusp::cli::watchForInterrupt();
+    cusp::cli::watchForSignals();
     const ExitCode code = action();
     // A full disk or a closed pipe behind stdout must not look like success.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
