@@ -289,12 +289,14 @@ void Alignment::checkTurns(const ExecutedMotion& motion, std::size_t cl_line) {
     linear.orientation_path = reader::OrientationPath::RotaryLinear;
     const PoseError stray = strayBetween(linear, chain_, {*motion.start_pose, *motion.end_pose}, 0.0, 1.0);
     if (stray.axis_rad <= turn + branch_slack_rad && travel <= std::numbers::pi + limit_slack_rad) return;
-    findings_.error(
-        "verify.winding", motion.place,
-        fmt::format(
-            "the rotary axes go the long way round in this feed move to CL line {}: one turns {:.4g}°, the tool "
-            "axis swings {:.3g}° off a way of {:.3g}°",
-            cl_line, base::degFromRad(travel), base::degFromRad(stray.axis_rad), base::degFromRad(turn)));
+    const std::string text = fmt::format(
+        "the rotary axes go the long way round in this feed move to CL line {}: one turns {:.4g}°, the tool axis swings "
+        "{:.3g}° off a way of {:.3g}°",
+        cl_line, base::degFromRad(travel), base::degFromRad(stray.axis_rad), base::degFromRad(turn));
+    if (stray.axis_rad > options_.pole_cone_rad || travel > std::numbers::pi + limit_slack_rad)
+        findings_.error("verify.winding", motion.place, text);
+    else
+        findings_.warning("verify.winding", motion.place, text);
 }
 
 void Alignment::finish() {

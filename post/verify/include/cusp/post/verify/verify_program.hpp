@@ -23,6 +23,10 @@ struct VerifyOptions {
     /// Limit on the tool axis between block ends. Off by default: where the rotary axes run linearly near the pole, the
     /// axis leaves the great circle between two CL points without the tip leaving its line.
     std::optional<double> between_axis_tolerance_rad;
+    /// A feed move whose rotary axes take the tool axis further off the way between its ends than that way is long is on
+    /// a wrong branch or winding: an error when it swings off by more than this, a warning below, where a change of branch
+    /// at the pole is hard to avoid.
+    double pole_cone_rad = base::radFromDeg(3.0);
     /// Limit on the tip between block ends.
     double between_tip_tolerance_mm = 0.001;
     /// Feeds may differ by this part of themselves: what printing them costs.
