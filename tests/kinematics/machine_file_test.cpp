@@ -36,7 +36,7 @@ TEST(MachineFile, KeepsUnitsInsideMmRadAndSeconds) {
 }
 
 TEST(MachineFile, NormalisesDirections) {
-    const machine::Direction& b = shippedMachine("nutating-45").rotary.at("B").direction;
+    const machine::Direction b = shippedMachine("nutating-45").rotary.at("B").direction;
     EXPECT_NEAR(b[0], -std::sqrt(0.5), 1e-15);
     EXPECT_EQ(b[1], 0.0);
     EXPECT_NEAR(b[2], -std::sqrt(0.5), 1e-15);
