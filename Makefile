@@ -67,8 +67,12 @@ lint: ## clang-tidy over every source file; warnings are errors
 	scripts/deps.sh build lint
 	scripts/lint.sh
 
-docs: ## Reference of the public headers, in build/docs
-	scripts/deps.sh docs
+docs: ## Write the pages made from the schemas (docs/*.md), and the reference of the public headers in build/docs
+	scripts/deps.sh build docs
+	cmake --preset release
+	cmake --build --preset release --target cusp_cli -j$(JOBS)
+	build/release/bin/cusp schema machine-file > docs/machine-file.md
+	build/release/bin/cusp schema post-job > docs/post-job.md
 	mkdir -p build/docs
 	doxygen docs/Doxyfile
 

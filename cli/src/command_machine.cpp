@@ -45,8 +45,9 @@ std::string rotaryText(const kinematics::Machine& model) {
     for (std::size_t i = 0; i < model.rotaryCount(); ++i) {
         const auto& range = model.rotaryRange(i);
         out += fmt::format("  {:<3} rotary  ", model.rotaryNames()[i]);
-        out += range.endless ? "endless\n"
-                             : fmt::format("{:.6g}° to {:.6g}°\n", base::degFromRad(range.min), base::degFromRad(range.max));
+        out += range.endless
+                   ? "endless\n"
+                   : fmt::format("{:.6g}° to {:.6g}°\n", base::degFromRad(range.min), base::degFromRad(range.max));
     }
     return out;
 }
@@ -158,10 +159,14 @@ ExitCode runCheck(const CheckOptions& options) {
 void addMachineCommand(CLI::App& app, Action& action) {
     CLI::App* machine = app.add_subcommand("machine", "Machine definitions.");
     machine->require_subcommand(1);
-    CLI::App* check = machine->add_subcommand("check", "Validates machine files and puts their kinematics to the test.");
+    CLI::App* check =
+        machine->add_subcommand("check", "Validates machine files and puts their kinematics to the test.");
     const auto options = std::make_shared<CheckOptions>();
-    check->add_option("FILE", options->machines, "Machine files, or names of machines that ship with cusp.")->required();
-    check->add_option("--poses", options->poses, "Poses to try.")->capture_default_str()->check(CLI::Range(1, 10000000));
+    check->add_option("FILE", options->machines, "Machine files, or names of machines that ship with cusp.")
+        ->required();
+    check->add_option("--poses", options->poses, "Poses to try.")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10000000));
     check->add_option("--seed", options->seed, "Seed of the poses.")->capture_default_str();
     check->add_flag("--json", options->json, "One machine-readable summary on stdout.");
     check->add_flag("--print-config", options->print_config, "Prints the whole definition, defaults written out.");

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // `cusp post`: a CL file becomes a Sinumerik 840D program, or nothing is written and the reason is told.
-#include "input.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "input.hpp"
 #include "job_file.hpp"
 #include "machine_lookup.hpp"
 #include "post_text.hpp"
@@ -141,10 +141,12 @@ ExitCode runPost(const Flags& flags) {
 }  // namespace
 
 void addPostCommand(CLI::App& app, Action& action) {
-    CLI::App* post = app.add_subcommand("post", "Turns a CL file (APT from NX or CATIA) into a Sinumerik 840D program.");
+    CLI::App* post =
+        app.add_subcommand("post", "Turns a CL file (APT from NX or CATIA) into a Sinumerik 840D program.");
     const auto flags = std::make_shared<Flags>();
     post->add_option("FILE", flags->cl_file, "CL file; - for standard input.")->required();
-    post->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")->required();
+    post->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")
+        ->required();
     post->add_option("-o,--output", flags->output, "Program to write; - for standard output.")->required();
     post->add_option("--config", flags->config, "Job file with a [post] table; flags win over it.");
     post->add_option("--dialect", flags->dialect, "Who wrote the CL file, when it cannot be told from the text.")
@@ -154,11 +156,13 @@ void addPostCommand(CLI::App& app, Action& action) {
     post->add_option("--name", flags->program_name, "Program name, at most 24 letters, digits, underscores.");
     post->add_option("--work-offset", flags->work_offset, "Work offset, e.g. G54 or G505.");
     post->add_option("--spindle-rpm", flags->spindle_rpm, "Spindle speed, clockwise, until the CL file gives one.");
-    post->add_flag("--strict", flags->strict, "Statements that are not understood, and cuts with the spindle off, are errors.");
+    post->add_flag("--strict", flags->strict,
+                   "Statements that are not understood, and cuts with the spindle off, are errors.");
     CLI::Option* json = post->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
     post->add_flag("--print-config", flags->print_config, "Prints the job as cusp understood it, and stops.");
     post->callback([flags, json, &action] {
-        if (*json && flags->output == "-") throw CLI::ValidationError("--json", "cannot share standard output with -o -");
+        if (*json && flags->output == "-")
+            throw CLI::ValidationError("--json", "cannot share standard output with -o -");
         action = [flags] { return runPost(*flags); };
     });
 }

@@ -18,18 +18,20 @@ namespace {
 
 std::string machineFilePage() {
     std::vector<base::FieldInfo> fields = machine::machineSection().describe();
-    fields.push_back(base::nestedInfo("control", post::controlSection().doc(), "table", {}, post::controlSection().describe()));
-    return base::schemaMarkdown("Machine files",
-                                "A machine is one TOML file: how its axes stand on one another, what they can do, and "
-                                "what its control wants to read. The unit of a number is the end of its key; a key that "
-                                "is not listed here is an error. `cusp machine check FILE` says whether a file is sound.",
-                                fields);
+    fields.push_back(
+        base::nestedInfo("control", post::controlSection().doc(), "table", {}, post::controlSection().describe()));
+    return base::schemaMarkdown(
+        "Machine files",
+        "A machine is one TOML file: how its axes stand on one another, what they can do, and "
+        "what its control wants to read. The unit of a number is the end of its key; a key that "
+        "is not listed here is an error. `cusp machine check FILE` says whether a file is sound.",
+        fields);
 }
 
 std::string postJobPage() {
-    return base::schemaMarkdown("Posting jobs",
-                                "`cusp post --config JOB.toml` reads these; a flag of the same name wins over the file.",
-                                postJobSection().describe());
+    return base::schemaMarkdown(
+        "Posting jobs", "`cusp post --config JOB.toml` reads these; a flag of the same name wins over the file.",
+        postJobSection().describe());
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // `cusp verify`: reads a program back through kinematics of its own and says whether it does what its CL file says.
-#include "input.hpp"
 #include "command.hpp"
 #include "console.hpp"
+#include "input.hpp"
 #include "machine_lookup.hpp"
 
 #include <cusp/base/json_report.hpp>
@@ -78,7 +78,8 @@ base::Json toJson(const Flags& flags, const VerifyReport& report) {
 base::Result<std::optional<toolpath::ToolPath>> readAgainst(const Flags& flags) {
     if (flags.against.empty()) return std::optional<toolpath::ToolPath>();
     base::Diagnostics warnings;
-    auto path = toolpath::readToolPathFile(flags.against, clReaderOptions(flags.dialect, flags.units, flags.strict), warnings);
+    auto path =
+        toolpath::readToolPathFile(flags.against, clReaderOptions(flags.dialect, flags.units, flags.strict), warnings);
     tell(warnings);
     if (!path) return base::fail(std::move(path).error());
     return std::optional<toolpath::ToolPath>(*std::move(path));
@@ -120,21 +121,25 @@ void addVerifyCommand(CLI::App& app, Action& action) {
         "verify", "Reads an 840D program back through kinematics of its own and compares it with its CL file.");
     const auto flags = std::make_shared<Flags>();
     verify->add_option("PROGRAM", flags->program, "Program to read; - for standard input.")->required();
-    verify->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")->required();
+    verify->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")
+        ->required();
     verify->add_option("--against", flags->against, "CL file the program must follow.");
     verify->add_option("--dialect", flags->dialect, "Who wrote the CL file, when it cannot be told from the text.")
         ->check(CLI::IsMember({"nx", "catia", "solidworks", "apt"}));
     verify->add_option("--units", flags->units, "Unit of lengths, when the CL file does not say.")
         ->check(CLI::IsMember({"mm", "inch"}));
-    verify->add_option("--work-offset", flags->work_offset, "Work offset the program must run in, when not the machine file's.");
+    verify->add_option("--work-offset", flags->work_offset,
+                       "Work offset the program must run in, when not the machine file's.");
     verify->add_option("--tip-tolerance-mm", flags->tip_tolerance_mm, "Allowed distance of the tip from the CL file.")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
-    verify->add_option("--axis-tolerance-deg", flags->axis_tolerance_deg, "Allowed angle of the tool axis at block ends.")
+    verify
+        ->add_option("--axis-tolerance-deg", flags->axis_tolerance_deg, "Allowed angle of the tool axis at block ends.")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
-    verify->add_option("--between-axis-tolerance-deg", flags->between_axis_tolerance_deg,
-                       "Allowed angle between block ends; stated but not judged when left out.")
+    verify
+        ->add_option("--between-axis-tolerance-deg", flags->between_axis_tolerance_deg,
+                     "Allowed angle between block ends; stated but not judged when left out.")
         ->check(CLI::PositiveNumber);
     verify->add_flag("--strict", flags->strict, "Words whose meaning is the machine builder's are errors.");
     verify->add_flag("--json", flags->json, "One machine-readable summary on stdout.");

@@ -21,9 +21,7 @@ void onInterrupt(int) {
     std::signal(SIGINT, SIG_DFL);
 }
 
-void put(std::FILE* stream, std::string_view text) {
-    std::fwrite(text.data(), 1, text.size(), stream);
-}
+void put(std::FILE* stream, std::string_view text) { std::fwrite(text.data(), 1, text.size(), stream); }
 
 }  // namespace
 
@@ -31,9 +29,7 @@ void tell(const base::Diagnostics& diagnostics) {
     if (!diagnostics.empty()) put(stderr, base::toText(diagnostics));
 }
 
-void say(std::string_view text) {
-    put(stdout, text);
-}
+void say(std::string_view text) { put(stdout, text); }
 
 void sayJson(const base::Json& summary) {
     const auto text = base::jsonText(summary);
@@ -53,9 +49,7 @@ ExitCode failWith(const base::Diagnostics& diagnostics) {
     return exitCodeOf(diagnostics);
 }
 
-bool interrupted() {
-    return interrupt_seen != 0;
-}
+bool interrupted() { return interrupt_seen != 0; }
 
 void watchForSignals() {
     std::signal(SIGINT, onInterrupt);

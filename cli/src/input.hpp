@@ -16,7 +16,8 @@
 namespace cusp::cli {
 
 /// `dialect`: "", "nx", "catia", "solidworks", "apt"; `units`: "", "mm", "inch" (checked by the command line).
-[[nodiscard]] toolpath::ClReaderOptions clReaderOptions(const std::string& dialect, const std::string& units, bool strict);
+[[nodiscard]] toolpath::ClReaderOptions clReaderOptions(const std::string& dialect, const std::string& units,
+                                                        bool strict);
 
 /// The file name without its folder; "-" as "standard input".
 [[nodiscard]] std::string fileNameOf(const std::string& path);

@@ -15,10 +15,12 @@ namespace {
 using cusp::cli::ExitCode;
 
 ExitCode run(int argc, char** argv) {
-    CLI::App app{"cusp closes the loop of sculptured-surface machining: plan, post, prove, send, measure, correct.", "cusp"};
+    CLI::App app{"cusp closes the loop of sculptured-surface machining: plan, post, prove, send, measure, correct.",
+                 "cusp"};
     app.set_version_flag("--version", "cusp " + std::string(cusp::base::version()));
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 1 done and it found something, 2 usage, 3 bad input, 4 I/O, 5 internal, 130 interrupted.");
+    app.footer(
+        "Exit codes: 0 done, 1 done and it found something, 2 usage, 3 bad input, 4 I/O, 5 internal, 130 interrupted.");
     cusp::cli::Action action;
     addPostCommand(app, action);
     addVerifyCommand(app, action);

@@ -24,14 +24,16 @@ std::string rotaryText(const PostOutcome& outcome) {
     for (std::size_t i = 0; i < names.size(); ++i) {
         const auto& range = outcome.machine.model.rotaryRange(i);
         const auto& [low, high] = summary.rotary_range_rad[i];
-        out += fmt::format("  {} moves between {:.3f}° and {:.3f}°, ", names[i], base::degFromRad(low), base::degFromRad(high));
+        out += fmt::format("  {} moves between {:.3f}° and {:.3f}°, ", names[i], base::degFromRad(low),
+                           base::degFromRad(high));
         out += range.endless ? "endless\n"
                              : fmt::format("limits {:.6g}° and {:.6g}°\n", base::degFromRad(range.min),
                                            base::degFromRad(range.max));
     }
     if (summary.largest_rotary_step_rad > 0.0)
-        out += fmt::format("  largest rotary step: {} by {:.3f}° at CL line {}\n", names[summary.largest_rotary_step_axis],
-                           base::degFromRad(summary.largest_rotary_step_rad), summary.largest_rotary_step_cl_line);
+        out +=
+            fmt::format("  largest rotary step: {} by {:.3f}° at CL line {}\n", names[summary.largest_rotary_step_axis],
+                        base::degFromRad(summary.largest_rotary_step_rad), summary.largest_rotary_step_cl_line);
     return out;
 }
 
@@ -50,10 +52,10 @@ bool PostOutcome::onlyLimits() const {
 
 std::string toText(const PostOutcome& outcome) {
     const auto& summary = outcome.summary;
-    std::string out = fmt::format("{}: {} CL file in {}, {}, {}, {}\n", fileNameOf(outcome.cl_file), outcome.dialect,
-                                  outcome.mm_per_unit == 1.0 ? "mm" : "inches", plural(summary.operations, "operation"),
-                                  plural(summary.tool_changes, "tool change"),
-                                  plural(summary.cutter_locations, "cutter location"));
+    std::string out =
+        fmt::format("{}: {} CL file in {}, {}, {}, {}\n", fileNameOf(outcome.cl_file), outcome.dialect,
+                    outcome.mm_per_unit == 1.0 ? "mm" : "inches", plural(summary.operations, "operation"),
+                    plural(summary.tool_changes, "tool change"), plural(summary.cutter_locations, "cutter location"));
     out += fmt::format("  for {}\n", outcome.machine.file.machine.name);
     if (outcome.report.hasErrors()) {
         const std::string limits =
@@ -62,7 +64,8 @@ std::string toText(const PostOutcome& outcome) {
     }
     out += rotaryText(outcome);
     out += "  linear travel not checked: nothing says where the workpiece lies in the machine\n";
-    if (outcome.report.warningCount() > 0) out += "  " + plural(outcome.report.warningCount(), "warning") + ", see above\n";
+    if (outcome.report.warningCount() > 0)
+        out += "  " + plural(outcome.report.warningCount(), "warning") + ", see above\n";
     return out + fmt::format("  {} → {}\n", plural(outcome.blocks, "block"), outcome.output);
 }
 

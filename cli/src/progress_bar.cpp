@@ -34,7 +34,8 @@ void ProgressBar::show(std::uint64_t done, std::uint64_t total) {
     if (total > 0) {
         const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
         const auto cells = static_cast<std::size_t>(share * static_cast<double>(bar_cells));
-        text += " [" + std::string(cells, '#') + std::string(bar_cells - cells, '.') + fmt::format("] {:3.0f} %", share * 100);
+        text += " [" + std::string(cells, '#') + std::string(bar_cells - cells, '.') +
+                fmt::format("] {:3.0f} %", share * 100);
     } else {
         text += fmt::format(" {}", done);
     }

@@ -9,7 +9,8 @@ namespace {
 using MachineCommand = CommandLine;
 
 std::string shippedMachine(const std::string& name) {
-    return base::readWholeFile(std::string(CUSP_SOURCE_DIR) + "/machines/" + name + ".toml", std::size_t{1} << 20U).value();
+    return base::readWholeFile(std::string(CUSP_SOURCE_DIR) + "/machines/" + name + ".toml", std::size_t{1} << 20U)
+        .value();
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -31,7 +32,10 @@ TEST_F(MachineCommand, EveryShippedMachineIsSound) {
 }
 
 TEST_F(MachineCommand, AWrongSignIsSeenByTheAnchor) {
-    const std::string file = write("wrong.toml", replaced(shippedMachine("head-c200-a95"), "[1, 0, 0]\npoint", "[-1, 0, 0]\npoint"));
+    std::string text = shippedMachine("head-c200-a95");
+    const auto axis = text.find("[rotary.A]\ndirection = [1.0,");
+    ASSERT_NE(axis, std::string::npos);
+    const std::string file = write("wrong.toml", text.replace(axis, 28, "[rotary.A]\ndirection = [-1.0"));
     const auto outcome = run({"machine", "check", file, "--poses", "100"});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.output << outcome.errors;
     EXPECT_NE(outcome.output.find("NOT MET"), std::string::npos) << outcome.output;

@@ -54,7 +54,8 @@ TEST_F(PostCommand, JsonHasTheDocumentedKeys) {
     for (const char c : read("PART.MPF")) blocks += c == '\n' ? 1U : 0U;
     std::size_t comments = 0;
     const std::string program = read("PART.MPF");
-    for (std::size_t at = 0; at < program.size(); at = program.find('\n', at) + 1) comments += program[at] == ';' ? 1U : 0U;
+    for (std::size_t at = 0; at < program.size(); at = program.find('\n', at) + 1)
+        comments += program[at] == ';' ? 1U : 0U;
     EXPECT_EQ(json["blocks"], blocks - comments);
 }
 

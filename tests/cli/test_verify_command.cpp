@@ -47,7 +47,6 @@ TEST_F(VerifyCommand, AlteredProgramsFail) {
     EXPECT_EQ(verify(altered("F1200", "F12000")).exit_code, 1) << "feed";
     EXPECT_EQ(verify(altered(" M3", "")).exit_code, 1) << "spindle";
     EXPECT_EQ(verify(altered("T=\"BALL_6\"", "T=\"BALL_8\"")).exit_code, 1) << "tool";
-    EXPECT_EQ(verify(altered("\nTRAORI", "\n")).exit_code, verify(altered("TRAORI\n", "\n")).exit_code);
     EXPECT_NE(verify(altered("TRAORI\n", "\n")).exit_code, 0) << "transformation";
     EXPECT_NE(verify(altered(" G1 ", " G0 ")).exit_code, 0) << "rapid through material";
 }
@@ -56,7 +55,7 @@ TEST_F(VerifyCommand, AMisspelledTransformationIsNamed) {
     const auto outcome = verify(altered("TRAFOOF", "TRAOOF"));
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_NE(outcome.errors.find("TRAFOOF"), std::string::npos) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("TRY.MPF:3:"), std::string::npos) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("TRY.MPF:6:"), std::string::npos) << outcome.errors;
 }
 
 TEST_F(VerifyCommand, TheWrongMachineIsNotFooled) {

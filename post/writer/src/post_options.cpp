@@ -33,7 +33,8 @@ void check(const PostOptions& options, const Where& where, base::Diagnostics& re
                      where("program_name"));
     if (!options.work_offset.empty() && !isSettableFrame(options.work_offset))
         report.error("post.work-offset",
-                     "\"" + options.work_offset + "\" is no settable frame of an 840D: G54 to G57, G505 to G599, or G500",
+                     "\"" + options.work_offset +
+                         "\" is no settable frame of an 840D: G54 to G57, G505 to G599, or G500",
                      where("work_offset"));
     if (options.spindle_rpm && !(*options.spindle_rpm > 0.0 && std::isfinite(*options.spindle_rpm)))
         report.error("post.spindle-speed", "the spindle speed must be above 0 rev/min", where("spindle_rpm"));

@@ -37,9 +37,7 @@ std::string printable(std::string_view text) {
 }
 
 /// An address of several letters, or one that ends in a digit, needs "=" before its value (PM12).
-bool needsEquals(std::string_view address) {
-    return address.size() > 1;
-}
+bool needsEquals(std::string_view address) { return address.size() > 1; }
 
 }  // namespace
 

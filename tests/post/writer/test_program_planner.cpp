@@ -102,41 +102,39 @@ kind = "sinumerik-840d"
 
 TEST_F(Planner, OneOperation) {
     // u = (sin C sin A, −cos C sin A, cos A): leaning to +X by asin 0.6 is C 90, A 36.8699 (or C −90, A −36.8699).
-    const std::string text = plan(std::string(head) +
-                                  "SPINDL/RPM,8000,CLW\n"
-                                  "COOLNT/ON\n"
-                                  "RAPID\n"
-                                  "GOTO/0.0,0.0,50.0,0.0,0.0,1.0\n"
-                                  "FEDRAT/MMPM,1200.0\n"
-                                  "GOTO/0.0,0.0,0.0,0.6,0.0,0.8\n"
-                                  "GOTO/10.0,0.0,0.0\n"
-                                  "RAPID\n"
-                                  "GOTO/10.0,0.0,50.0\n"
-                                  "END-OF-PATH\n");
+    const std::string text = plan(std::string(head) + "SPINDL/RPM,8000,CLW\n"
+                                                      "COOLNT/ON\n"
+                                                      "RAPID\n"
+                                                      "GOTO/0.0,0.0,50.0,0.0,0.0,1.0\n"
+                                                      "FEDRAT/MMPM,1200.0\n"
+                                                      "GOTO/0.0,0.0,0.0,0.6,0.0,0.8\n"
+                                                      "GOTO/10.0,0.0,0.0\n"
+                                                      "RAPID\n"
+                                                      "GOTO/10.0,0.0,50.0\n"
+                                                      "END-OF-PATH\n");
     EXPECT_TRUE(report.empty()) << base::toText(report);
-    EXPECT_EQ(text,
-              "modal-start\n"
-              "go-home\n"
-              "comment operation OP1\n"
-              "message OP1\n"
-              "comment work offset: the programming frame, origin X0.0000 Y0.0000 Z0.0000 mm in the part\n"
-              "change-tool \"BALL_6\"\n"
-              "smoothing on\n"
-              "work-offset\n"
-              "spindle cw 8000.000 rpm\n"
-              "coolant flood\n"
-              "position-rotary C90.0000 A0.0000\n"
-              "tip-programming on\n"
-              "approach rapid X0.0000 Y0.0000 Z50.0000 C90.0000 A0.0000\n"
-              "move feed X0.0000 Y0.0000 Z0.0000 C90.0000 A36.8699 1200.000 mm/min\n"
-              "move feed X10.0000 Y0.0000 Z0.0000 C90.0000 A36.8699 1200.000 mm/min\n"
-              "move rapid X10.0000 Y0.0000 Z50.0000 C90.0000 A36.8699\n"
-              "tip-programming off\n"
-              "spindle off\n"
-              "coolant off\n"
-              "go-home\n"
-              "smoothing off\n"
-              "end\n");
+    EXPECT_EQ(text, "modal-start\n"
+                    "go-home\n"
+                    "comment operation OP1\n"
+                    "message OP1\n"
+                    "comment work offset: the programming frame, origin X0.0000 Y0.0000 Z0.0000 mm in the part\n"
+                    "change-tool \"BALL_6\"\n"
+                    "smoothing on\n"
+                    "work-offset\n"
+                    "spindle cw 8000.000 rpm\n"
+                    "coolant flood\n"
+                    "position-rotary C90.0000 A0.0000\n"
+                    "tip-programming on\n"
+                    "approach rapid X0.0000 Y0.0000 Z50.0000 C90.0000 A0.0000\n"
+                    "move feed X0.0000 Y0.0000 Z0.0000 C90.0000 A36.8699 1200.000 mm/min\n"
+                    "move feed X10.0000 Y0.0000 Z0.0000 C90.0000 A36.8699 1200.000 mm/min\n"
+                    "move rapid X10.0000 Y0.0000 Z50.0000 C90.0000 A36.8699\n"
+                    "tip-programming off\n"
+                    "spindle off\n"
+                    "coolant off\n"
+                    "go-home\n"
+                    "smoothing off\n"
+                    "end\n");
     EXPECT_EQ(summary.cutter_locations, 4U);
     EXPECT_EQ(summary.operations, 1U);
     EXPECT_EQ(summary.tool_changes, 1U);
@@ -147,8 +145,9 @@ TEST_F(Planner, OneOperation) {
 
 TEST_F(Planner, ToolChangeGoesHomeWithTheSpindleOff) {
     const std::string cut = "RAPID\nGOTO/0.0,0.0,50.0,0.0,0.0,1.0\nFEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0\n";
-    const std::string text = plan(std::string(head) + "SPINDL/RPM,8000,CLW\n" + cut + "END-OF-PATH\n" +
-                                  "TOOL PATH/OP2,TOOL,BALL_8\nTLDATA/MILL,8.0,4.0,50.0,0.0,0.0\n" + cut + "END-OF-PATH\n");
+    const std::string text =
+        plan(std::string(head) + "SPINDL/RPM,8000,CLW\n" + cut + "END-OF-PATH\n" +
+             "TOOL PATH/OP2,TOOL,BALL_8\nTLDATA/MILL,8.0,4.0,50.0,0.0,0.0\n" + cut + "END-OF-PATH\n");
     const auto leave = text.find("tip-programming off\nspindle off\ngo-home\nchange-tool \"BALL_8\"\n");
     EXPECT_NE(leave, std::string::npos) << text;
     // The second operation cuts with the spindle on again, although the file gives its speed once.
@@ -159,8 +158,9 @@ TEST_F(Planner, ToolChangeGoesHomeWithTheSpindleOff) {
 TEST_F(Planner, CuttingWithTheSpindleOffIsToldOnce) {
     const std::string cl = std::string(head) + "FEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\nGOTO/1.0,0.0,0.0\n";
     plan(cl);
-    EXPECT_EQ(base::toText(report), "part.cls:5: warning: cuts with the spindle off: there is no SPINDL before it. Give "
-                                    "the speed with --spindle-rpm. [post.spindle-off]\n");
+    EXPECT_EQ(base::toText(report),
+              "part.cls:5: warning: cuts with the spindle off: there is no SPINDL before it. Give "
+              "the speed with --spindle-rpm. [post.spindle-off]\n");
     report = base::Diagnostics();
     PostOptions with_spindle;
     with_spindle.spindle_rpm = 5000.0;
@@ -189,7 +189,8 @@ TEST_F(Planner, SpindleAboveItsLimit) {
 TEST_F(Planner, SurfaceSpeedNeedsTheCutter) {
     // 100 m/min on 6 mm: 100000 / (π·6) = 5305.165 rev/min.
     const std::string cut = "FEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\n";
-    EXPECT_NE(plan(std::string(head) + "SPINDL/SMM,100,CLW\n" + cut).find("spindle cw 5305.165 rpm"), std::string::npos);
+    EXPECT_NE(plan(std::string(head) + "SPINDL/SMM,100,CLW\n" + cut).find("spindle cw 5305.165 rpm"),
+              std::string::npos);
 }
 
 TEST_F(Planner, ASecondProgrammingFrameIsRefused) {

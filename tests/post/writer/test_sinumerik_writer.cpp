@@ -45,28 +45,29 @@ protected:
 };
 
 TEST_F(Writer, StartsWithDefaultsAndHome) {
-    EXPECT_EQ(write(ModalStart{}, GoHome{}),
-              "; P\n"
-              "N10 G40 G17 G710 G94 G90 G60 G601 FNORM\n"
-              "N20 TRAFOOF\n"
-              "N30 SUPA G0 Z800 D0\n"
-              "N40 SUPA G0 X0 Y0 C0 A0 D0\n");
+    EXPECT_EQ(write(ModalStart{}, GoHome{}), "; P\n"
+                                             "N10 G40 G17 G710 G94 G90 G60 G601 FNORM\n"
+                                             "N20 TRAFOOF\n"
+                                             "N30 SUPA G0 Z800 D0\n"
+                                             "N40 SUPA G0 X0 Y0 C0 A0 D0\n");
     EXPECT_EQ(blocks, 4U);
 }
 
 TEST_F(Writer, OnlyChangedWordsArePrinted) {
-    EXPECT_EQ(write(feedMove(1, 2, 3, 10, 20, 3000), feedMove(1, 2.5, 3, 10, 20, 3000), feedMove(1, 2.5, 3, 11, 20, 500)),
-              "; P\n"
-              "N10 G94 G1 X1 Y2 Z3 C10 A20 F3000\n"
-              "N20 Y2.5\n"
-              "N30 C11 F500\n");
+    EXPECT_EQ(
+        write(feedMove(1, 2, 3, 10, 20, 3000), feedMove(1, 2.5, 3, 10, 20, 3000), feedMove(1, 2.5, 3, 11, 20, 500)),
+        "; P\n"
+        "N10 G94 G1 X1 Y2 Z3 C10 A20 F3000\n"
+        "N20 Y2.5\n"
+        "N30 C11 F500\n");
 }
 
 TEST_F(Writer, APointThatPrintsTheSameIsNoBlock) {
-    EXPECT_EQ(write(feedMove(1, 2, 3, 0, 0, 100), feedMove(1.000001, 2, 3, 0, 0, 100), feedMove(1.00002, 2, 3, 0, 0, 100)),
-              "; P\n"
-              "N10 G94 G1 X1 Y2 Z3 C0 A0 F100\n"
-              "N20 X1.00002\n");
+    EXPECT_EQ(
+        write(feedMove(1, 2, 3, 0, 0, 100), feedMove(1.000001, 2, 3, 0, 0, 100), feedMove(1.00002, 2, 3, 0, 0, 100)),
+        "; P\n"
+        "N10 G94 G1 X1 Y2 Z3 C0 A0 F100\n"
+        "N20 X1.00002\n");
     EXPECT_EQ(blocks, 2U);
 }
 
@@ -94,8 +95,7 @@ TEST_F(Writer, ApproachGoesInThePlaneFirst) {
 
 TEST_F(Writer, FeedPerRevolution) {
     const Move per_rev{{1, 0, 0}, {0, 0}, MotionKind::Feed, {0.125, FeedRate::Unit::MmPerRev}};
-    EXPECT_EQ(write(feedMove(0, 0, 0, 0, 0, 100), per_rev),
-              "; P\nN10 G94 G1 X0 Y0 Z0 C0 A0 F100\nN20 G95 X1 F0.125\n");
+    EXPECT_EQ(write(feedMove(0, 0, 0, 0, 0, 100), per_rev), "; P\nN10 G94 G1 X0 Y0 Z0 C0 A0 F100\nN20 G95 X1 F0.125\n");
 }
 
 TEST_F(Writer, ToolsByNameOrNumber) {

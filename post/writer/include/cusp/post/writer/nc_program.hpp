@@ -91,8 +91,8 @@ struct Stop {
 
 struct End {};
 
-using NcItem = std::variant<Comment, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset, Spindle,
-                            Coolant, PositionRotary, TipProgramming, Approach, Move, Pause, Stop, End>;
+using NcItem = std::variant<Comment, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset,
+                            Spindle, Coolant, PositionRotary, TipProgramming, Approach, Move, Pause, Stop, End>;
 
 /// One step of the program and the CL line it stands for (0: none).
 struct NcStep {

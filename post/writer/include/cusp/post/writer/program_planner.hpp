@@ -38,8 +38,8 @@ struct PostSummary {
 class ProgramPlanner {
 public:
     /// `cl_file` is for messages. All references must outlive the planner.
-    ProgramPlanner(const MachineFile& file, const kinematics::Machine& machine, PostOptions options, std::string cl_file,
-                   NcSink& sink, base::Diagnostics& report);
+    ProgramPlanner(const MachineFile& file, const kinematics::Machine& machine, PostOptions options,
+                   std::string cl_file, NcSink& sink, base::Diagnostics& report);
     ~ProgramPlanner();
     ProgramPlanner(const ProgramPlanner&) = delete;
     ProgramPlanner& operator=(const ProgramPlanner&) = delete;
