@@ -14,14 +14,49 @@ std::string textOf(const geometry::Vector3& v) {
     return fmt::format("{} {} {}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no "-0"
 }
 
+std::string textOf(const CutterLocation& location) {
+    return fmt::format("{} axis {}", textOf(location.tip_mm), textOf(location.axis));
+}
+
+std::string textOf(const FeedRate& f) {
+    return fmt::format("feed {} {}", f.value, f.unit == FeedRate::Unit::MmPerS ? "mm/s" : "mm/rev");
+}
+
+std::string textOf(const geometry::RigidTransform& t) {
+    return fmt::format("origin {} x {} y {} z {}", textOf(t.translation()), textOf(t.linear().col(0)),
+                       textOf(t.linear().col(1)), textOf(t.linear().col(2)));
+}
+
+std::string optionText(const char* name, const std::optional<double>& value) {
+    return value ? fmt::format(" {} {}", name, *value) : std::string();
+}
+
 struct Printer {
     std::string operator()(const LinearMotion& m) const {
-        return fmt::format("{} {} axis {}", m.kind == MotionKind::Rapid ? "rapid" : "go", textOf(m.location.tip_mm),
-                           textOf(m.location.axis));
+        return fmt::format("{} {}", m.kind == MotionKind::Rapid ? "rapid" : "go", textOf(m.location));
     }
-    std::string operator()(const FeedRate& f) const {
-        return fmt::format("feed {} {}", f.value, f.unit == FeedRate::Unit::MmPerS ? "mm/s" : "mm/rev");
+    std::string operator()(const ArcMotion& a) const {
+        return fmt::format("arc {} center {} normal {} radius {}{}", textOf(a.end), textOf(a.center_mm),
+                           textOf(a.normal), a.radius_mm, a.full_circle ? " full" : "");
     }
+    std::string operator()(const StartPosition& s) const { return "from " + textOf(s.location); }
+    std::string operator()(const HomeReturn& /*home*/) const { return "home"; }
+    std::string operator()(const CycleStart& c) const {
+        constexpr const char* kinds[] = {"drill", "deep", "break chip", "bore", "tap"};
+        return fmt::format("cycle {} depth {}", kinds[static_cast<int>(c.kind)], c.depth_mm) +
+               optionText("clearance", c.clearance_mm) + optionText("retract", c.retract_mm) +
+               (c.feed ? " " + textOf(*c.feed) : "") + optionText("first peck", c.first_peck_mm) +
+               optionText("peck", c.peck_mm) + optionText("dwell", c.dwell_s);
+    }
+    std::string operator()(const HoleLocation& h) const { return "hole " + textOf(h.location); }
+    std::string operator()(const CycleEnd& /*end*/) const { return "cycle end"; }
+    std::string operator()(const CutterCompensation& c) const {
+        constexpr const char* sides[] = {"off", "left", "right"};
+        return fmt::format("compensation {}{}", sides[static_cast<int>(c.side)],
+                           c.offset_number ? " " + std::to_string(*c.offset_number) : "");
+    }
+    std::string operator()(const WorkPlane& w) const { return "plane " + textOf(w.programming_from_plane); }
+    std::string operator()(const FeedRate& f) const { return textOf(f); }
     std::string operator()(const SpindleCommand& s) const {
         constexpr const char* turns[] = {"off", "clockwise", "counter-clockwise"};
         const std::string speed =
@@ -43,11 +78,7 @@ struct Printer {
         return text;
     }
     std::string operator()(const OperationStart& o) const { return fmt::format("operation '{}'", o.name); }
-    std::string operator()(const ProgrammingFrame& f) const {
-        const geometry::RigidTransform& t = f.part_from_programming;
-        return fmt::format("frame origin {} x {} y {} z {}", textOf(t.translation()), textOf(t.linear().col(0)),
-                           textOf(t.linear().col(1)), textOf(t.linear().col(2)));
-    }
+    std::string operator()(const ProgrammingFrame& f) const { return "frame " + textOf(f.part_from_programming); }
     std::string operator()(const Remark& r) const {
         constexpr const char* kinds[] = {"part", "message", "insert"};
         return fmt::format("{} '{}'", kinds[static_cast<int>(r.kind)], r.text);

@@ -22,6 +22,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 std::abort();
             }
         }
+        if (const auto* arc = std::get_if<ArcMotion>(&record.statement)) {
+            const bool unit = std::abs(arc->normal.norm() - 1.0) < 1e-12;
+            const double off_mm =
+                std::abs((arc->end.tip_mm - arc->center_mm).cross(arc->normal).norm() - arc->radius_mm);
+            const double extent = 1.0 + arc->end.tip_mm.norm() + arc->center_mm.norm();
+            if (!unit || !(arc->radius_mm > 0.0) || !(off_mm <= arc_tolerance_mm + 1e-12 * extent)) {
+                std::abort();
+            }
+        }
     }
     return 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// GOTO, RAPID, FROM, TLAXIS, MULTAX, and the words that are not yet read.
+// GOTO, GODLTA, GOHOME, RAPID, FROM, TLAXIS, MULTAX, and the words that are not yet read.
 #include "cl_text.hpp"
 
 #include <gtest/gtest.h>
@@ -107,22 +107,42 @@ TEST(Rapid, HoldsForOneMove) {
               "1: error: RAPID with values is not understood; RAPID alone makes the next GOTO rapid [cl.syntax]\n");
 }
 
-TEST(From, MovesNothing) {
-    EXPECT_EQ(recordsOf("FROM/0,0,100\nGOTO/1,0,0"), "2 go 1 0 0 axis 0 0 1\n");
+TEST(From, IsRecordedAndMovesNothing) {
+    EXPECT_EQ(recordsOf("FROM/0,0,100\nGOTO/1,0,0"), "1 from 0 0 100 axis 0 0 1\n2 go 1 0 0 axis 0 0 1\n");
     EXPECT_EQ(problemsOf("FROM/0,0"),
               "1: error: FROM takes 3 values (point) or 6 (point and tool axis), not 2 [cl.syntax]\n");
+    EXPECT_EQ(problemsOf("FROM/0,0,1,0,0,0"), "1: error: FROM: the axis 0,0,0 has length 0; it must be 1 [cl.axis]\n");
+}
+
+TEST(Godlta, StepsFromWhereTheToolStands) {
+    EXPECT_EQ(recordsOf("GOTO/1,2,3\nGODLTA/1,0,-1\nRAPID\nGODLTA/5"),
+              "1 go 1 2 3 axis 0 0 1\n2 go 2 2 2 axis 0 0 1\n4 rapid 2 2 7 axis 0 0 1\n");
+    EXPECT_EQ(recordsOf("MULTAX\nGOTO/1,2,3,0,0.6,0.8\nGODLTA/10"),
+              "2 go 1 2 3 axis 0 0.6 0.8\n3 go 1 8 11 axis 0 0.6 0.8\n");
+    EXPECT_EQ(recordsOf("FROM/1,1,1\nGODLTA/0,0,1\nGOTO/0,0,0"),
+              "1 from 1 1 1 axis 0 0 1\n2 go 1 1 2 axis 0 0 1\n3 go 0 0 0 axis 0 0 1\n");
+    EXPECT_EQ(readOut("UNITS/INCHES\nGOTO/1,0,0\nGODLTA/0,1,0\nFINI\n").text,
+              "2 go 25.4 0 0 axis 0 0 1\n3 go 25.4 25.4 0 axis 0 0 1\n4 end\n");
+    EXPECT_EQ(problemsOf("GODLTA/1,0,0"),
+              "1: error: GODLTA: where the tool stands is not known: no GOTO or FROM before "
+              "it [cl.start-unknown]\n");
+    EXPECT_EQ(problemsOf("GOTO/0,0,0\nGODLTA/1,0"),
+              "2: error: GODLTA takes 3 values (step) or 1 (step along the tool axis), not 2 [cl.syntax]\n");
+}
+
+TEST(Gohome, LeavesForAnUnknownPlace) {
+    EXPECT_EQ(recordsOf("GOTO/1,2,3\nGOHOME"), "1 go 1 2 3 axis 0 0 1\n2 home\n");
+    EXPECT_EQ(problemsOf("GOTO/1,2,3\nGOHOME\nGODLTA/1,0,0"),
+              "3: error: GODLTA: where the tool stands is not known: no GOTO or FROM before it [cl.start-unknown]\n");
+    EXPECT_EQ(problemsOf("GOHOME/1,2,3"), "1: error: GOHOME with values is not understood [cl.syntax]\n");
 }
 
 TEST(UnsupportedMotion, IsAlwaysAnError) {
-    for (const std::string word : {"AUTOPS", "CIRCLE/0,0,0,0,0,1,5", "COPY/1", "CYCLE/DRILL,5", "CUTCOM/LEFT",
-                                   "GODLTA/1,0,0", "GOHOME", "INDIRV/0,0,1", "MOVARC/0,0,0", "NURBS/3", "ORIGIN/0,0,0",
-                                   "ROTABL/90", "SYN/'A','B'", "TLON,GOFWD/C1", "TRANS/1,2,3", "TRACUT/M1"}) {
-        const std::string name = word.substr(0, word.rfind("CY", 0) == 0     ? 11
-                                                : word.rfind("CUTC", 0) == 0 ? 11
-                                                                             : word.find_first_of("/,"));
+    for (const std::string word : {"COPY/1", "MOVARC/0,0,0", "ORIGIN/0,0,0", "ROTABL/90", "SYN/'A','B'",
+                                   "TLRGT,GOFWD/C1", "TRANS/1,2,3", "TRACUT/M1"}) {
         EXPECT_EQ(
             problemsOf("PPRINT x\n" + word),
-            "2: error: " + name +
+            "2: error: " + word.substr(0, word.find_first_of("/,")) +
                 " is not yet read; without it the tool would go elsewhere than the file says [cl.unsupported-motion]\n");
     }
     EXPECT_EQ(problemsOf("CYCLE/OFF\nCUTCOM/OFF"), "");

@@ -120,7 +120,9 @@ TEST(Csys, GivesTheAxisOfA3Plus2Plane) {
                 "GOTO/3,0,0,-1.,0,0\nSELECT/TOOL,4\nCSI_SET_FLUTE_LENGTH/38.\nFINI\n");
     EXPECT_EQ(out.dialect, Dialect::SolidWorksCam);
     EXPECT_EQ(out.problems, "");
-    EXPECT_EQ(out.text, "3 go 1 0 0 axis 0 0 1\n5 go 2 0 0 axis -1 0 0\n6 go 3 0 0 axis -1 0 0\n9 end\n");
+    EXPECT_EQ(
+        out.text,
+        "3 go 1 0 0 axis 0 0 1\n4 plane origin 0 0 0 x 0 -1 0 y 0 0 1 z -1 0 0\n5 go 2 0 0 axis -1 0 0\n6 go 3 0 0 axis -1 0 0\n9 end\n");
 }
 
 TEST(Csys, Problems) {

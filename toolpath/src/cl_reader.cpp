@@ -100,8 +100,7 @@ bool ClReader::State::step(ClRecord& record) {
     }
     // Nearly every statement of a long file is a GOTO: it passes without a look at the table.
     constexpr std::string_view go = "GOTO";
-    if (context.motion_seen && !context.program_ended && context.tool.isSettled() && context.frame_rows.expected == 0 &&
-        statement.text.substr(0, go.size()) == go) {
+    if (context.gotoIsPlain() && statement.text.substr(0, go.size()) == go) {
         std::string_view body = statement.text.substr(go.size());
         while (!body.empty() && isBlank(body.front())) {
             body.remove_prefix(1);
@@ -137,7 +136,7 @@ void ClReader::State::dispatch(const Statement& statement) {
     const StatementEntry* const entry = findStatement(head.word(), context.dialect->dialect);
     if (entry == nullptr) {
         unknownStatement(context, head, statement.text);
-    } else if (!head.isPlain() && entry->handler != unsupportedMotion) {
+    } else if (!head.isPlain() && !entry->any_form && entry->handler != unsupportedMotion) {
         context.error("cl.syntax",
                       fmt::format("{}: a slash or the end of the statement is expected behind the word", head.word()));
     } else {
@@ -178,6 +177,7 @@ void ClReader::State::endOfInput(StatementSplitter::Status status) {
     }
     if (!context.stopped) {
         finishFrame(context);
+        abandonArc(context);
         if (context.path_ended && !context.program_ended) {
             context.emit(ProgramEnd{});
         } else if (!context.program_ended && context.motion_seen) {

@@ -15,16 +15,17 @@ constexpr std::array<std::string_view, 3> solidworks_words{"TRNTYP", "CSYS", "CS
 constexpr std::array<std::string_view, 2> catia_comments{"*CATIA0", "CATIA APT"};
 
 constexpr std::array<DialectTraits, 4> dialects{{
-    {Dialect::Nx, "NX", AxisRule::Modal, ToolNameRule::OperationHeader, false, nx_words, {}},
-    {Dialect::Catia, "CATIA", AxisRule::Declared, ToolNameRule::ToolPrint, true, {}, catia_comments},
+    {Dialect::Nx, "NX", AxisRule::Modal, ToolNameRule::OperationHeader, false, -1.0, nx_words, {}},
+    {Dialect::Catia, "CATIA", AxisRule::Declared, ToolNameRule::ToolPrint, true, 1.0, {}, catia_comments},
     {Dialect::SolidWorksCam,
      "SolidWorks CAM",
      AxisRule::Declared,
      ToolNameRule::ToolPrint,
      false,
+     1.0,
      solidworks_words,
      {}},
-    {Dialect::Apt, "APT", AxisRule::Declared, ToolNameRule::ToolPrint, false, {}, {}},
+    {Dialect::Apt, "APT", AxisRule::Declared, ToolNameRule::ToolPrint, false, 1.0, {}, {}},
 }};
 
 }  // namespace

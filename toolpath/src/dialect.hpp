@@ -30,6 +30,8 @@ struct DialectTraits {
     ToolNameRule tool_name_rule;
     /// Comments carry records: `$$*CATIA0` and `$$ OPERATION NAME :`.
     bool comments_carry_records;
+    /// Times the axis that CIRCLE names: the axis about which the motion is right-handed.
+    double circle_axis_sign;
     /// Statements, or beginnings of comments, that only this dialect writes.
     std::span<const std::string_view> signature_words;
     std::span<const std::string_view> signature_comments;

@@ -13,16 +13,23 @@ namespace {
 // Frames are printed with 5 to 7 decimals.
 constexpr double orthonormal_tolerance = 1e-3;
 
-/// A right-handed frame from x and y as printed, made exactly orthonormal keeping x; nothing if they are not nearly so.
+/// A right-handed frame from x and y as printed, made orthonormal keeping x; nothing if they are not nearly so. Axes that
+/// are orthonormal to the last bits are kept, so that a frame once read stays the same when written and read again.
 std::optional<geometry::Matrix3> frameFromAxes(const geometry::Vector3& x, const geometry::Vector3& y) {
     if (!(std::abs(x.norm() - 1.0) <= orthonormal_tolerance) || !(std::abs(y.norm() - 1.0) <= orthonormal_tolerance) ||
         !(std::abs(x.dot(y)) <= orthonormal_tolerance)) {
         return std::nullopt;
     }
+    constexpr double last_bits = 4e-15;
     geometry::Matrix3 frame;
-    frame.col(0) = x.normalized();
-    frame.col(2) = frame.col(0).cross(y).normalized();
-    frame.col(1) = frame.col(2).cross(frame.col(0));
+    frame.col(0) = x;
+    frame.col(1) = y;
+    if (!(std::abs(x.norm() - 1.0) <= last_bits) || !(std::abs(y.norm() - 1.0) <= last_bits) ||
+        !(std::abs(x.dot(y)) <= last_bits)) {
+        frame.col(0) = x.normalized();
+        frame.col(1) = frame.col(0).cross(y).normalized().cross(frame.col(0));
+    }
+    frame.col(2) = frame.col(0).cross(frame.col(1));
     return frame;
 }
 
@@ -126,7 +133,11 @@ void handleCsys(ReaderContext& context, std::string_view word, std::string_view 
         context.error("cl.frame", fmt::format("{}: the matrix is not a rotation with an origin", word));
         return;
     }
-    // The points stay in the world frame (TRNTYP/WORLD): only the tool axis of the 3+2 plane, its Z, matters.
+    // The points stay in the world frame (TRNTYP/WORLD); Z is the tool axis of the 3+2 plane.
+    WorkPlane plane;
+    plane.programming_from_plane.linear() = *rotation;
+    plane.programming_from_plane.translation() = geometry::Vector3(v[3], v[7], v[11]) * context.mm_per_unit;
+    context.emit(plane);
     context.declared_axis = rotation->col(2);
     context.axis = context.declared_axis;
 }

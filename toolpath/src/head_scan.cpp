@@ -73,7 +73,7 @@ public:
             motion_seen_ = true;
         } else if (head.word() == "UNITS" || head.word() == "UNIT") {
             takeUnit(head.body());
-        } else if (head.word() == "FEDRAT" && !findings_.implied) {
+        } else if ((head.word() == "FEDRAT" || head.word() == "CYCLE") && !findings_.implied) {
             takeFeed(head.body());
         }
     }

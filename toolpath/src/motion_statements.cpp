@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// GOTO and what decides how the next GOTO is to be taken: RAPID, FROM, TLAXIS, MULTAX.
+// GOTO and its relatives, and what decides how the next GOTO is to be taken: RAPID, FROM, TLAXIS, MULTAX.
 #include "number_scan.hpp"
 #include "statement_table.hpp"
 
@@ -58,14 +58,50 @@ std::optional<geometry::Vector3> impliedAxis(ReaderContext& context) {
     return context.declared_axis;
 }
 
-LinearMotion motionTo(ReaderContext& context, const std::array<double, 6>& values) {
+LinearMotion motionTo(ReaderContext& context, const geometry::Vector3& tip_mm) {
     LinearMotion motion;
-    motion.location.tip_mm = geometry::Vector3(values[0], values[1], values[2]) * context.mm_per_unit;
+    motion.location.tip_mm = tip_mm;
     motion.location.axis = context.axis;
     motion.kind = context.rapid ? MotionKind::Rapid : MotionKind::Feed;
     context.rapid = false;
     context.motion_seen = true;
+    context.tip_mm = tip_mm;
+    context.standing = Standing::AtTip;
     return motion;
+}
+
+/// A point with all that can be on: a hole where a cycle is, the end of an arc, else a straight move.
+void goTo(ReaderContext& context, const geometry::Vector3& tip_mm, const geometry::Vector3& axis) {
+    context.requireUnit();
+    context.settleTool();
+    if (context.arc) {
+        completeArc(context, {tip_mm, axis});
+        return;
+    }
+    context.axis = axis;
+    const LinearMotion motion = motionTo(context, tip_mm);
+    if (context.cycle_on) {
+        context.standing = Standing::AboveHole;
+        context.emit(HoleLocation{motion.location});
+    } else {
+        context.emit(motion);
+    }
+}
+
+/// FROM's or GOTO's 3 or 6 numbers.
+std::size_t takePose(ReaderContext& context, std::string_view word, std::string_view body,
+                     std::array<double, 6>& values) {
+    const Fields fields(body);
+    if (fields.size() != 3 && fields.size() != 6) {
+        context.error("cl.syntax", fmt::format("{} takes 3 values (point) or 6 (point and tool axis), not {}{}", word,
+                                               fields.size(), fields.truncated() ? " or more" : ""));
+        return 0;
+    }
+    return takeNumbers(context, word, fields, 0, fields.size(), values.data()) ? fields.size() : 0;
+}
+
+geometry::Vector3 pointOf(const ReaderContext& context, const std::array<double, 6>& values) {
+    return geometry::Vector3(values[0], values[1], values[2]) * context.mm_per_unit;
 }
 
 }  // namespace
@@ -80,34 +116,58 @@ bool readPlainGoto(ReaderContext& context, std::string_view body, LinearMotion& 
         if (!(std::abs(length - 1.0) <= length_tolerance)) {
             return false;
         }
-        context.axis = axis / length;
+        context.axis = normalisedOnce(axis, length);
     } else if (count != 3 || !axisIsClear(context)) {
         return false;
     }
-    motion = motionTo(context, values);
+    motion = motionTo(context, pointOf(context, values));
     return true;
 }
 
 void handleGoto(ReaderContext& context, std::string_view word, std::string_view body) {
-    const Fields fields(body);
-    if (fields.size() != 3 && fields.size() != 6) {
-        context.error("cl.syntax", fmt::format("{} takes 3 values (point) or 6 (point and tool axis), not {}{}", word,
-                                               fields.size(), fields.truncated() ? " or more" : ""));
-        return;
-    }
     std::array<double, 6> values{};
-    if (!takeNumbers(context, word, fields, 0, fields.size(), values.data())) {
+    const std::size_t count = takePose(context, word, body, values);
+    if (count == 0) {
         return;
     }
     const std::optional<geometry::Vector3> axis =
-        fields.size() == 6 ? unitAxis(context, word, &values[3]) : impliedAxis(context);
-    if (!axis) {
+        count == 6 ? unitAxis(context, word, &values[3]) : impliedAxis(context);
+    if (axis) {
+        goTo(context, pointOf(context, values), *axis);
+    }
+}
+
+void handleGodlta(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    std::array<double, 3> values{};
+    if (fields.size() != 1 && fields.size() != 3) {
+        context.error("cl.syntax", fmt::format("{} takes 3 values (step) or 1 (step along the tool axis), not {}", word,
+                                               fields.size()));
         return;
     }
-    context.axis = *axis;
-    context.requireUnit();
-    context.settleTool();
-    context.emit(motionTo(context, values));
+    if (!takeNumbers(context, word, fields, 0, fields.size(), values.data())) {
+        return;
+    }
+    if (context.standing == Standing::Unknown) {
+        context.error("cl.start-unknown",
+                      fmt::format("{}: where the tool stands is not known: no GOTO or FROM before it", word));
+        return;
+    }
+    abandonArc(context);
+    const geometry::Vector3 step = fields.size() == 1 ? geometry::Vector3(values[0] * context.axis)
+                                                      : geometry::Vector3(values[0], values[1], values[2]);
+    goTo(context, context.tip_mm + step * context.mm_per_unit, context.axis);
+}
+
+void handleGohome(ReaderContext& context, std::string_view word, std::string_view body) {
+    if (!trimmed(body).empty()) {
+        context.error("cl.syntax", fmt::format("{} with values is not understood", word));
+        return;
+    }
+    abandonArc(context);
+    context.rapid = false;
+    context.standing = Standing::Unknown;
+    context.emit(HomeReturn{});
 }
 
 void handleRapid(ReaderContext& context, std::string_view word, std::string_view body) {
@@ -120,15 +180,23 @@ void handleRapid(ReaderContext& context, std::string_view word, std::string_view
 }
 
 void handleFrom(ReaderContext& context, std::string_view word, std::string_view body) {
-    // Where the tool is said to stand before the first move. It moves nothing, but its axis counts for what follows.
-    const Fields fields(body);
     std::array<double, 6> values{};
-    if (fields.size() != 3 && fields.size() != 6) {
-        context.error("cl.syntax",
-                      fmt::format("{} takes 3 values (point) or 6 (point and tool axis), not {}", word, fields.size()));
-    } else if (takeNumbers(context, word, fields, 0, fields.size(), values.data()) && fields.size() == 6) {
-        context.axis = unitAxis(context, word, &values[3]).value_or(context.axis);
+    const std::size_t count = takePose(context, word, body, values);
+    if (count == 0) {
+        return;
     }
+    if (count == 6) {
+        const std::optional<geometry::Vector3> axis = unitAxis(context, word, &values[3]);
+        if (!axis) {
+            return;
+        }
+        context.axis = *axis;
+    }
+    abandonArc(context);
+    context.requireUnit();
+    context.tip_mm = pointOf(context, values);
+    context.standing = Standing::AtTip;
+    context.emit(StartPosition{{context.tip_mm, context.axis}});
 }
 
 void handleTlaxis(ReaderContext& context, std::string_view word, std::string_view body) {
@@ -157,15 +225,6 @@ void handleMultax(ReaderContext& context, std::string_view word, std::string_vie
     if (!context.multax) {
         context.axis = context.declared_axis;
     }
-}
-
-void handleOnlyOff(ReaderContext& context, std::string_view word, std::string_view body) {
-    const Fields fields(body);
-    if (fields.size() == 1 && fields[0].is("OFF")) {
-        return;  // nothing of the kind can be on: switching it on is an error
-    }
-    unsupportedMotion(context, fields.empty() ? std::string(word) : fmt::format("{}/{}", word, quoted(fields[0].text)),
-                      body);
 }
 
 }  // namespace cusp::toolpath::detail

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // FEDRAT, SPINDL, COOLNT, DELAY, STOP: what the machine does besides moving.
+#include "feed_unit.hpp"
 #include "head_scan.hpp"
 #include "statement_table.hpp"
 
@@ -25,10 +26,7 @@ void checkImpliedUnit(ReaderContext& context, std::string_view feed_word, Length
                     feed_word, context.mm_per_unit == 1.0 ? "mm" : "inch"));
 }
 
-struct FeedUnit {
-    double mm_per_unit;
-    FeedRate::Unit unit;
-};
+}  // namespace
 
 std::optional<FeedUnit> feedUnit(ReaderContext& context, const Field& field) {
     const bool per_rev = field.is("MMPR") || field.is("IPR") || field.is("PERREV");
@@ -43,7 +41,10 @@ std::optional<FeedUnit> feedUnit(ReaderContext& context, const Field& field) {
     return std::nullopt;
 }
 
-}  // namespace
+FeedRate feedRate(double value, const FeedUnit& unit) {
+    const double feed = value * unit.mm_per_unit;
+    return {unit.unit == FeedRate::Unit::MmPerS ? base::mmPerSFromMmPerMin(feed) : feed, unit.unit};
+}
 
 void handleFedrat(ReaderContext& context, std::string_view word, std::string_view body) {
     std::optional<double> value;
@@ -69,8 +70,7 @@ void handleFedrat(ReaderContext& context, std::string_view word, std::string_vie
         context.warning("cl.rapid-cancelled",
                         "FEDRAT follows RAPID before any GOTO: the next move is made at this feed");
     }
-    const double feed = *value * unit.mm_per_unit;
-    context.emit(FeedRate{unit.unit == FeedRate::Unit::MmPerS ? base::mmPerSFromMmPerMin(feed) : feed, unit.unit});
+    context.emit(feedRate(*value, unit));
 }
 
 void handleSpindl(ReaderContext& context, std::string_view word, std::string_view body) {

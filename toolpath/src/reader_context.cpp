@@ -78,7 +78,7 @@ std::optional<geometry::Vector3> unitAxis(ReaderContext& context, std::string_vi
                                              ijk[1], ijk[2], length));
         return std::nullopt;
     }
-    return geometry::Vector3(axis / length);
+    return normalisedOnce(axis, length);
 }
 
 }  // namespace cusp::toolpath::detail

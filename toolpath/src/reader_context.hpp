@@ -8,12 +8,29 @@
 #include "statement.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cusp::toolpath::detail {
+
+/// What is known of where the tool is.
+enum class Standing : std::uint8_t {
+    Unknown,   ///< at no place the file has named
+    AtTip,     ///< its tip at `ReaderContext::tip_mm`
+    AboveHole  ///< somewhere above the hole at `tip_mm`
+};
+
+/// An arc whose end is still to come.
+struct OpenArc {
+    std::string_view word;  ///< of the statement, for messages
+    std::uint32_t line = 0;
+    geometry::Vector3 center_mm = geometry::Vector3::Zero();
+    geometry::Vector3 normal = geometry::Vector3::UnitZ();  ///< as ArcMotion::normal
+    std::optional<double> radius_mm;
+};
 
 enum class UnitSource : std::uint8_t { Unknown, Stated, Option, Implied };
 
@@ -52,6 +69,12 @@ struct ReaderContext {
 
     geometry::Vector3 axis = geometry::Vector3::UnitZ();           ///< of the last GOTO
     geometry::Vector3 declared_axis = geometry::Vector3::UnitZ();  ///< by TLAXIS
+    geometry::Vector3 tip_mm = geometry::Vector3::Zero();          ///< of the last GOTO, GODLTA or FROM
+    Standing standing = Standing::Unknown;
+    std::optional<OpenArc> arc;                    ///< the next GOTO is its end
+    std::optional<geometry::Vector3> first_sense;  ///< INDIRV
+    bool cycle_on = false;                         ///< a GOTO is a hole
+    CutterCompensation::Side compensation = CutterCompensation::Side::Off;
     bool multax = false;
     bool rapid = false;  ///< RAPID was read; the next GOTO is it
     bool motion_seen = false;
@@ -78,6 +101,11 @@ struct ReaderContext {
 
     void emit(ClStatement statement) { records.push_back({std::move(statement), line}); }
 
+    /// A GOTO here is a straight move and nothing else.
+    [[nodiscard]] bool gotoIsPlain() const {
+        return motion_seen && !program_ended && !arc && !cycle_on && frame_rows.expected == 0 && tool.isSettled();
+    }
+
     /// A length of the file in mm. Reports once when the file's unit is not known.
     void requireUnit();
 
@@ -94,6 +122,13 @@ struct ReaderContext {
 /// Copies the numbers `first`… of the fields; reports `WORD: 'x' is not a number` and answers false otherwise.
 [[nodiscard]] bool takeNumbers(ReaderContext& context, std::string_view word, const Fields& fields, std::size_t first,
                                std::size_t count, double* out);
+
+/// `v` made a unit vector; one that is so within the last bits is kept as it is, so that what was once normalised
+/// stays the same however often it is written and read.
+[[nodiscard]] inline geometry::Vector3 normalisedOnce(const geometry::Vector3& v, double length) {
+    constexpr double last_bits = 1e-15;
+    return std::abs(length - 1.0) <= last_bits ? v : geometry::Vector3(v / length);
+}
 
 /// A unit vector from three numbers printed with a few decimals; reports `cl.axis` when the length is not 1 within 1e-3.
 [[nodiscard]] std::optional<geometry::Vector3> unitAxis(ReaderContext& context, std::string_view word,

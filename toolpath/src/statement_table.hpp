@@ -16,6 +16,8 @@ struct StatementEntry {
     std::string_view word;
     Handler handler;
     DialectSet dialects = every_dialect;
+    /// The word may be followed by other things than a slash; they are the body then.
+    bool any_form = false;
 };
 
 /// Null when the dialect has no such statement.
@@ -35,8 +37,24 @@ void handleRapid(ReaderContext& context, std::string_view word, std::string_view
 void handleFrom(ReaderContext& context, std::string_view word, std::string_view body);
 void handleTlaxis(ReaderContext& context, std::string_view word, std::string_view body);
 void handleMultax(ReaderContext& context, std::string_view word, std::string_view body);
-/// CUTCOM, CYCLE, TRANS…: OFF is understood, anything else is not.
-void handleOnlyOff(ReaderContext& context, std::string_view word, std::string_view body);
+void handleGodlta(ReaderContext& context, std::string_view word, std::string_view body);
+void handleGohome(ReaderContext& context, std::string_view word, std::string_view body);
+
+// arc_statements.cpp
+/// NX, SolidWorks CAM, plain APT: centre, axis, radius; the GOTO that follows is the end.
+void handleCircle(ReaderContext& context, std::string_view word, std::string_view body);
+void handleIndirv(ReaderContext& context, std::string_view word, std::string_view body);
+/// CATIA: `TLON,GOFWD/(CIRCLE/centre,radius),ON,(LINE/point,point)`.
+void handleTlon(ReaderContext& context, std::string_view word, std::string_view body);
+void handleNurbs(ReaderContext& context, std::string_view word, std::string_view body);
+/// The GOTO behind CIRCLE was read: makes the arc, or reports why there is none.
+void completeArc(ReaderContext& context, const CutterLocation& end);
+/// Something else than a GOTO follows CIRCLE, or nothing does: reports it.
+void abandonArc(ReaderContext& context);
+
+// cycle_statements.cpp
+void handleCycle(ReaderContext& context, std::string_view word, std::string_view body);
+void handleCutcom(ReaderContext& context, std::string_view word, std::string_view body);
 
 // process_statements.cpp
 void handleFedrat(ReaderContext& context, std::string_view word, std::string_view body);

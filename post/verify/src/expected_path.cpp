@@ -11,7 +11,8 @@ reader::Vector3 toReader(const geometry::Vector3& v) { return {v.x(), v.y(), v.z
 
 class Walk {
 public:
-    explicit Walk(ExpectedPath& out) : out_(out) {}
+    Walk(ExpectedPath& out, const std::string& file, base::Diagnostics& report)
+        : out_(out), file_(file), report_(report) {}
 
     void operator()(const toolpath::LinearMotion& motion) {
         if (process_changed_ || out_.processes.empty()) out_.processes.push_back(process_);
@@ -43,16 +44,31 @@ public:
     void operator()(const toolpath::Remark&) {}
     void operator()(const toolpath::Dwell&) {}
     void operator()(const toolpath::ProgramEnd&) {}
+    void operator()(const toolpath::StartPosition&) {}
+    void operator()(const toolpath::WorkPlane&) { opens_ = true; }
+    void operator()(const toolpath::ArcMotion&) { refuse("arcs are"); }
+    void operator()(const toolpath::HomeReturn&) { refuse("GOHOME is"); }
+    void operator()(const toolpath::CycleStart&) { refuse("drilling cycles are"); }
+    void operator()(const toolpath::HoleLocation&) {}
+    void operator()(const toolpath::CycleEnd&) {}
+    void operator()(const toolpath::CutterCompensation& command) {
+        if (command.side != toolpath::CutterCompensation::Side::Off) refuse("cutter radius compensation is");
+    }
 
     std::uint32_t line = 0;
 
 private:
+    void refuse(const char* what) {
+        report_.error("verify.unsupported", std::string(what) + " not yet verified", {file_, line, 0, {}});
+    }
     ExpectedProcess& change() {
         process_changed_ = true;
         return process_;
     }
 
     ExpectedPath& out_;
+    const std::string& file_;
+    base::Diagnostics& report_;
     ExpectedProcess process_;
     bool process_changed_ = true;
     bool opens_ = true;
@@ -60,9 +76,9 @@ private:
 
 }  // namespace
 
-ExpectedPath expectedPath(const toolpath::ToolPath& path) {
+ExpectedPath expectedPath(const toolpath::ToolPath& path, base::Diagnostics& report) {
     ExpectedPath out;
-    Walk walk(out);
+    Walk walk(out, path.file_name, report);
     for (const toolpath::ClRecord& record : path.records) {
         walk.line = record.line;
         std::visit(walk, record.statement);

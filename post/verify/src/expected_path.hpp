@@ -35,6 +35,7 @@ struct ExpectedPath {
     std::vector<ExpectedProcess> processes;
 };
 
-[[nodiscard]] ExpectedPath expectedPath(const toolpath::ToolPath& path);
+/// What the verifier cannot judge so far becomes the error `verify.unsupported` in `report`.
+[[nodiscard]] ExpectedPath expectedPath(const toolpath::ToolPath& path, base::Diagnostics& report);
 
 }  // namespace cusp::post::verify

@@ -15,7 +15,9 @@ base::Result<VerifyReport> verifyProgram(std::istream& program, const std::strin
                                          const VerifyOptions& options) {
     VerifyReport report;
     ExpectedPath expected;
-    if (against != nullptr) expected = expectedPath(*against);
+    base::Diagnostics unsupported;
+    if (against != nullptr) expected = expectedPath(*against, unsupported);
+    if (unsupported.hasErrors()) return base::fail(std::move(unsupported));
     report.compared = against != nullptr;
     report.points = expected.points.size();
     Alignment alignment(machine, against != nullptr ? &expected : nullptr, options, program_name, report);

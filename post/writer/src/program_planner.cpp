@@ -103,6 +103,20 @@ struct ProgramPlanner::State {
     void take(const toolpath::Dwell& dwell) { emit(Pause{dwell.seconds}); }
     void take(const toolpath::Remark& remark) { emit(Comment{remark.text}); }
 
+    void take(const toolpath::StartPosition&) {}
+    void take(const toolpath::WorkPlane&) {}
+    void take(const toolpath::ArcMotion&) { refuse("arcs are"); }
+    void take(const toolpath::HomeReturn&) { refuse("GOHOME is"); }
+    void take(const toolpath::CycleStart&) { refuse("drilling cycles are"); }
+    void take(const toolpath::HoleLocation&) {}
+    void take(const toolpath::CycleEnd&) {}
+    void take(const toolpath::CutterCompensation& command) {
+        if (command.side != toolpath::CutterCompensation::Side::Off) refuse("cutter radius compensation is");
+    }
+    void refuse(std::string_view what) {
+        report.error("post.unsupported", fmt::format("{} not yet posted", what), here());
+    }
+
     void take(const toolpath::OperationStart& operation) {
         ++summary.operations;
         emit(Comment{"operation " + operation.name});
