@@ -32,10 +32,9 @@ TEST_F(MachineCommand, EveryShippedMachineIsSound) {
 }
 
 TEST_F(MachineCommand, AWrongSignIsSeenByTheAnchor) {
-    std::string text = shippedMachine("head-c200-a95");
-    const auto axis = text.find("[rotary.A]\ndirection = [1.0,");
-    ASSERT_NE(axis, std::string::npos);
-    const std::string file = write("wrong.toml", text.replace(axis, 28, "[rotary.A]\ndirection = [-1.0"));
+    const std::string text =
+        replaced(shippedMachine("head-c200-a95"), "[rotary.A]\ndirection = [1.0,", "[rotary.A]\ndirection = [-1.0,");
+    const std::string file = write("wrong.toml", text);
     const auto outcome = run({"machine", "check", file, "--poses", "100"});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.output << outcome.errors;
     EXPECT_NE(outcome.output.find("NOT MET"), std::string::npos) << outcome.output;
