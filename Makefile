@@ -8,6 +8,8 @@ SHELL := /bin/bash
 JOBS := $(shell nproc)
 # Rooms whose tests also run under the sanitizers in `make test`: those that read what strangers wrote.
 PARSER_ROOMS := base toolpath kinematics post
+# What `make demo` posts: the example path, and a real CL file where the folder of real files lies beside the project.
+CL ?= examples/benchmark/surface_finish.cls $(wildcard ../shared/data/cl/nx_variable_axis.cls)
 # Seconds `make fuzz` spends on each fuzzer.
 FUZZ_SECONDS ?= 300
 
@@ -21,11 +23,11 @@ build: ## Build everything (release)
 	cmake --preset release
 	cmake --build --preset release -j$(JOBS)
 
-demo: ## Install what is absent, build, and turn an example CL file into a proven 840D program (out/demo)
+demo: ## Install what is absent, build, and turn CL files (CL=…) into proven 840D programs in out/demo
 	scripts/deps.sh build
 	cmake --preset release
 	cmake --build --preset release --target cusp_cli -j$(JOBS)
-	scripts/demo.sh build/release/bin/cusp out/demo
+	scripts/demo.sh build/release/bin/cusp out/demo $(CL)
 
 test: ## Install what is absent, then all tests: parsers under sanitizers, fuzz smoke, and the whole suite last
 	$(MAKE) --no-print-directory deps

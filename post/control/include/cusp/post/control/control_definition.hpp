@@ -5,6 +5,7 @@
 
 #include <cusp/base/result.hpp>
 #include <cusp/base/toml_schema.hpp>
+#include <cusp/base/units.hpp>
 #include <cusp/machine/machine_definition.hpp>
 
 #include <cstdint>
@@ -32,7 +33,8 @@ struct ControlDefinition {
     bool md21104_ori_ipo_with_g_code = true;
     Cycle832 cycle832 = Cycle832::From45;
     double cycle832_tolerance_mm = 0.01;
-    double cycle832_orientation_tolerance_rad = 0.0;  ///< key `cycle832_orientation_tolerance_deg`
+    /// Key `cycle832_orientation_tolerance_deg`; the form from 4.5 demands one. 0.1° is an assumed finishing value.
+    double cycle832_orientation_tolerance_rad = base::radFromDeg(0.1);
     std::string start_codes = "G40 G17 G710 G94 G90 G60 G601 FNORM";
     std::string work_offset = "G54";
     std::int64_t block_number_step = 10;  ///< 0: no block numbers
