@@ -3,6 +3,7 @@
 // From tokens to words.
 #include "block.hpp"
 
+#include "expression.hpp"
 #include "word_tables.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +41,10 @@ public:
         }
         if (here().is("/")) skipSign();
         if (!blockNumber()) return false;
-        if (here().kind == TokenKind::Name && ahead(1).is(":")) at_ += 2;  // a label; without jumps it does nothing
+        if (here().kind == TokenKind::Name && ahead(1).is(":")) {
+            block_.label = here().text;
+            at_ += 2;
+        }
         while (here().kind != TokenKind::End)
             if (!word()) return false;
         return true;
@@ -170,17 +174,14 @@ private:
     /// An expression ends where an operator could stand and none does: `X=R1 Y=2` are two words, `X=R1 -2` is one.
     bool skipExpression(std::string_view name, std::size_t column) {
         while (true) {
-            while (here().is("-") || here().is("+")) ++at_;
+            while (here().is("-") || here().is("+") || isNot(here())) ++at_;
             if (!skipOperand()) return fail("nc.syntax", fmt::format("the value of {} cannot be read", name), column);
-            if (!isOperator(here())) return true;
+            if (!isBinaryOperator(here())) return true;
             ++at_;
         }
     }
 
-    static bool isOperator(const Token& token) {
-        if (token.kind == TokenKind::Name) return token.text == "DIV" || token.text == "MOD";
-        return token.is("+") || token.is("-") || token.is("*") || token.is("/");
-    }
+    static bool isNot(const Token& token) { return token.kind == TokenKind::Name && token.text == "NOT"; }
 
     bool skipOperand() {
         const TokenKind kind = here().kind;
@@ -228,9 +229,27 @@ private:
 
 }  // namespace
 
+std::vector<std::pair<std::size_t, std::size_t>> splitAtCommas(const Block& block, std::size_t first,
+                                                               std::size_t last) {
+    std::vector<std::pair<std::size_t, std::size_t>> parts;
+    int depth = 0;
+    std::size_t begin = first;
+    for (std::size_t i = first; i < last; ++i) {
+        const Token& token = block.tokens[i];
+        if (token.is("(")) ++depth;
+        if (token.is(")")) --depth;
+        if (depth > 0 || !token.is(",")) continue;
+        parts.emplace_back(begin, i);
+        begin = i + 1;
+    }
+    parts.emplace_back(begin, last);
+    return parts;
+}
+
 bool parseBlock(Block& block, base::Diagnostics& report) {
     block.words.clear();
     block.number.reset();
+    block.label = {};
     block.may_be_skipped = false;
     block.is_header = false;
     if (!cutIntoTokens(block.line, block.upper, block.tokens, block.where, report)) return false;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cusp::post::reader {
@@ -38,6 +39,7 @@ struct Block {
     std::vector<Token> tokens;
     std::vector<Word> words;
     std::optional<std::uint64_t> number;
+    std::string_view label;       ///< "NAME" of "NAME:"; points into `upper`
     bool may_be_skipped = false;  ///< begins with '/'
     bool is_header = false;       ///< %_N_NAME_MPF
     base::Location where;
@@ -50,5 +52,9 @@ struct Block {
 /// Parses `block.line`. False when it cannot be cut into words (`nc.syntax`, `nc.number`, `nc.missing-equals`); the block
 /// is then to be left out.
 [[nodiscard]] bool parseBlock(Block& block, base::Diagnostics& report);
+
+/// Ends of the comma-separated parts of the tokens [first, last), parentheses respected.
+[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> splitAtCommas(const Block& block, std::size_t first,
+                                                                             std::size_t last);
 
 }  // namespace cusp::post::reader

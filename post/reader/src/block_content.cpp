@@ -32,24 +32,6 @@ std::optional<int> extensionOf(std::string_view name) {
     return number;
 }
 
-/// Ends of the comma-separated parts of [first, last), parentheses respected.
-std::vector<std::pair<std::size_t, std::size_t>> splitAtCommas(const Block& block, std::size_t first,
-                                                               std::size_t last) {
-    std::vector<std::pair<std::size_t, std::size_t>> parts;
-    int depth = 0;
-    std::size_t begin = first;
-    for (std::size_t i = first; i < last; ++i) {
-        const Token& token = block.tokens[i];
-        if (token.is("(")) ++depth;
-        if (token.is(")")) --depth;
-        if (depth > 0 || !token.is(",")) continue;
-        parts.emplace_back(begin, i);
-        begin = i + 1;
-    }
-    parts.emplace_back(begin, last);
-    return parts;
-}
-
 }  // namespace
 
 void ContentReader::error(std::string_view code, std::string message, std::size_t column) {

@@ -57,6 +57,7 @@ public:
         : machine_(machine), chain_(chain), options_(options), report_(report) {}
 
     [[nodiscard]] BlockContent read(const Block& block);
+    [[nodiscard]] Variables& variables() { return variables_; }
 
 private:
     void code(const Word& word);

@@ -66,8 +66,10 @@ OrientationPath Executor::orientationPath() const {
     return linear ? OrientationPath::RotaryLinear : OrientationPath::GreatCircle;
 }
 
-void Executor::run(const Block& block, const BlockContent& content) {
+void Executor::run(const Block& block, const BlockContent& content, bool in_subprogram) {
     block_ = &block;
+    in_subprogram_ = in_subprogram;
+    returned_ = false;
     place_ = {block.where.line, block.number};
     applyCodes(content);
     if (content.message) sink_.event(place_, OperatorMessage{*content.message});
@@ -172,7 +174,9 @@ void Executor::applyLateFunctions(const BlockContent& content) {
     for (const int stop : {0, 1})
         if (has(content, stop)) sink_.event(place_, MachineStop{stop == 1});
     for (const int end : {2, 17, 30})
-        if (has(content, end)) {
+        if (has(content, end) && in_subprogram_)
+            returned_ = true;
+        else if (has(content, end)) {
             ended_ = true;
             sink_.event(place_, ProgramEnd{end});
         }

@@ -18,9 +18,11 @@ class Executor {
 public:
     Executor(const MachineFile& machine, const ForwardChain& chain, ProgramSink& sink, base::Diagnostics& report);
 
-    void run(const Block& block, const BlockContent& content);
+    void run(const Block& block, const BlockContent& content, bool in_subprogram);
 
     [[nodiscard]] bool ended() const { return ended_; }
+    /// The block that ran last ends the subprogram it stands in.
+    [[nodiscard]] bool returned() const { return returned_; }
     [[nodiscard]] std::size_t motions() const { return motions_; }
 
 private:
@@ -64,7 +66,9 @@ private:
     bool transformation_ = false;
     bool feed_missing_reported_ = false;
     bool rotary_missing_reported_ = false;
+    bool in_subprogram_ = false;
     bool ended_ = false;
+    bool returned_ = false;
     std::size_t motions_ = 0;
 };
 

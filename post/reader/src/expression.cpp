@@ -4,24 +4,65 @@
 #include "expression.hpp"
 
 #include <cusp/base/units.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <vector>
 
 namespace cusp::post::reader {
 
+namespace {
+
+/// Deeper than any real program; keeps a hostile one from exhausting the stack.
+constexpr int deepest_nesting = 64;
+constexpr double largest_parameter = 99'999.0;
+
+constexpr double largest_integer = 2147483648.0;
+
+/// From loosest to tightest, as the 840D has them: comparisons come last of all, after AND, XOR and OR (PM12, priority of
+/// operators; NOT binds tightest). `B_NOT` and `<<` are not here.
+constexpr std::array<std::array<std::string_view, 6>, 9> operator_levels = {{{"==", "<>", "<", ">", "<=", ">="},
+                                                                             {"OR"},
+                                                                             {"XOR"},
+                                                                             {"AND"},
+                                                                             {"B_OR"},
+                                                                             {"B_XOR"},
+                                                                             {"B_AND"},
+                                                                             {"+", "-"},
+                                                                             {"*", "/", "DIV", "MOD"}}};
+constexpr std::size_t comparison_level = 0;
+
+/// Comparisons look for relative equality to 1e-12 (PM12, precision correction on comparison errors).
+bool equal(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+
+bool isTrue(double value) { return value != 0.0; }
+
+using Value = std::optional<double>;
+
+}  // namespace
+
+bool isBinaryOperator(const Token& token) {
+    if (token.kind != TokenKind::Name && token.kind != TokenKind::Symbol) return false;
+    for (const auto& level : operator_levels)
+        for (const std::string_view name : level)
+            if (!name.empty() && token.text == name) return true;
+    return false;
+}
+
 bool Variables::declare(std::string_view name, bool integer) {
-    return named_.emplace(std::string(name), Variable{0.0, integer}).second;
+    return levels_.back().emplace(std::string(name), Variable{0.0, integer}).second;
 }
 
 void Variables::set(std::string_view name, double value) {
-    if (const auto found = named_.find(name); found != named_.end())
+    if (const auto found = levels_.back().find(name); found != levels_.back().end())
         found->second.value = found->second.integer ? std::round(value) : value;
 }
 
 std::optional<double> Variables::get(std::string_view name) const {
-    const auto found = named_.find(name);
-    if (found == named_.end()) return std::nullopt;
+    const auto found = named().find(name);
+    if (found == named().end()) return std::nullopt;
     return found->second.value;
 }
 
@@ -33,12 +74,6 @@ std::optional<double> Variables::parameter(int number) const {
 
 namespace {
 
-/// Deeper than any real program; keeps a hostile one from exhausting the stack.
-constexpr int deepest_nesting = 64;
-constexpr double largest_parameter = 99'999.0;
-
-using Value = std::optional<double>;
-
 class Evaluator {
 public:
     Evaluator(const Block& block, std::size_t first, std::size_t last, const Variables& variables,
@@ -46,7 +81,7 @@ public:
         : block_(block), at_(first), last_(last), variables_(variables), report_(report) {}
 
     Value run() {
-        const Value value = sum();
+        const Value value = whole();
         if (!value) return std::nullopt;
         if (at_ != last_) return fail("nc.expression", fmt::format("\"{}\" is out of place here", here().text));
         if (!std::isfinite(*value)) return fail("nc.arithmetic", "the value is not a finite number");
@@ -61,48 +96,77 @@ private:
         return true;
     }
 
+    Value whole() { return binary(0); }
+
     Value fail(std::string_view code, std::string message) {
         const std::size_t at = std::min(at_, block_.tokens.size() - 1);
         report_.error(code, std::move(message), block_.at(block_.tokens[at].column));
         return std::nullopt;
     }
 
-    Value sum() {
-        Value value = product();
-        while (value) {
-            const bool minus = here().is("-");
-            if (!minus && !here().is("+")) return value;
+    /// One level of the operator table; what binds tighter stands below it.
+    Value binary(std::size_t level) {
+        if (level == operator_levels.size()) return factor();
+        Value value = binary(level + 1);
+        for (std::size_t chained = 0; value; ++chained) {
+            const std::string_view name = operatorAt(level);
+            if (name.empty()) return value;
+            if (level == comparison_level && chained > 0)
+                return fail("nc.expression",
+                            "comparisons cannot follow one another; AND and OR bind tighter than comparisons on the "
+                            "840D, so each comparison needs parentheses");
             ++at_;
-            const Value right = product();
+            const Value right = binary(level + 1);
             if (!right) return std::nullopt;
-            value = minus ? *value - *right : *value + *right;
+            value = apply(name, *value, *right);
         }
         return value;
     }
 
-    Value product() {
-        Value value = factor();
-        while (value) {
-            const std::string_view name = here().text;
-            const bool word = here().kind == TokenKind::Name && (name == "DIV" || name == "MOD");
-            if (!word && !here().is("*") && !here().is("/")) return value;
-            ++at_;
-            const Value right = factor();
-            if (!right) return std::nullopt;
-            if (name != "*" && *right == 0.0) return fail("nc.arithmetic", "division by zero");
-            if (name == "*")
-                value = *value * *right;
-            else if (name == "/")
-                value = *value / *right;
-            else if (name == "DIV")
-                value = std::trunc(*value / *right);
-            else
-                value = std::fmod(*value, *right);
+    /// The operator of `level` that stands here, or an empty text.
+    [[nodiscard]] std::string_view operatorAt(std::size_t level) const {
+        if (here().kind != TokenKind::Name && here().kind != TokenKind::Symbol) return {};
+        for (const std::string_view name : operator_levels[level])
+            if (!name.empty() && here().text == name) return name;
+        return {};
+    }
+
+    Value apply(std::string_view name, double a, double b) {
+        if (name == "*") return a * b;
+        if (name == "+") return a + b;
+        if (name == "-") return a - b;
+        if (name == "/" || name == "DIV" || name == "MOD") {
+            if (b == 0.0) return fail("nc.arithmetic", "division by zero");
+            return name == "/" ? a / b : name == "DIV" ? std::trunc(a / b) : std::fmod(a, b);
         }
-        return value;
+        if (name.starts_with("B_")) return bitwise(name, a, b);
+        const bool result = name == "AND"   ? isTrue(a) && isTrue(b)
+                            : name == "OR"  ? isTrue(a) || isTrue(b)
+                            : name == "XOR" ? isTrue(a) != isTrue(b)
+                            : name == "=="  ? equal(a, b)
+                            : name == "<>"  ? !equal(a, b)
+                            : name == "<"   ? a < b && !equal(a, b)
+                            : name == ">"   ? a > b && !equal(a, b)
+                            : name == "<="  ? a < b || equal(a, b)
+                                            : a > b || equal(a, b);
+        return result ? 1.0 : 0.0;
+    }
+
+    Value bitwise(std::string_view name, double a, double b) {
+        if (std::abs(a) > largest_integer || std::abs(b) > largest_integer)
+            return fail("nc.arithmetic", fmt::format("{} takes whole numbers of 32 bits", name));
+        const auto left = static_cast<std::int64_t>(a);
+        const auto right = static_cast<std::int64_t>(b);
+        return static_cast<double>(name == "B_AND" ? left & right : name == "B_OR" ? left | right : left ^ right);
     }
 
     Value factor() {
+        if (here().kind == TokenKind::Name && here().text == "NOT") {
+            ++at_;
+            const Value value = nested(&Evaluator::factor);
+            if (!value) return std::nullopt;
+            return isTrue(*value) ? 0.0 : 1.0;
+        }
         double sign = 1.0;
         while (here().is("-") || here().is("+")) {
             if (here().is("-")) sign = -sign;
@@ -126,10 +190,10 @@ private:
         return fail("nc.expression", "a value is missing");
     }
 
-    Value nested() {
+    Value nested(Value (Evaluator::*rule)() = &Evaluator::whole) {
         if (++depth_ > deepest_nesting)
             return fail("nc.expression", fmt::format("parentheses are nested more than {} deep", deepest_nesting));
-        const Value value = sum();
+        const Value value = (this->*rule)();
         --depth_;
         return value;
     }
@@ -157,6 +221,10 @@ private:
         if (at_ + 1 < last_ && block_.tokens[at_ + 1].is("(")) return function(name);
         if (name.starts_with("$"))
             return fail("nc.unsupported", fmt::format("{} (a system variable) is not interpreted", name));
+        if (name == "TRUE" || name == "FALSE") {
+            ++at_;
+            return name == "TRUE" ? 1.0 : 0.0;
+        }
         const Value value = variables_.get(name);
         if (!value) return fail("nc.undeclared", fmt::format("{} is not declared", name));
         ++at_;

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// Lines in, blocks parsed, evaluated and run, one after the other.
+// Lines in, blocks parsed, evaluated and run, in the order the program says.
 #include <cusp/post/reader/program_reader.hpp>
 
 #include "executor.hpp"
-#include "line_source.hpp"
+#include "program_flow.hpp"
+#include "program_source.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace cusp::post::reader {
@@ -40,48 +42,103 @@ void checkHeader(const Block& block, std::size_t blocks_before, base::Diagnostic
 
 bool isBlank(const std::string& line) { return line.find_first_not_of(" \t") == std::string::npos; }
 
+/// The loop over blocks, and what it has to remember.
+class Run {
+public:
+    Run(std::istream& in, const std::string& file_name, const MachineFile& machine, const ForwardChain& chain,
+        const ReaderOptions& options, ProgramSink& sink, base::Diagnostics& report)
+        : options_(options),
+          report_(report),
+          source_(in, file_name, options.max_line_bytes),
+          contents_(machine.machine, chain, options, report),
+          executor_(machine, chain, sink, report),
+          flow_(source_, contents_.variables(), report) {}
+
+    ReadSummary all(const std::string& file_name) {
+        while (!executor_.ended() && !aborted_) one();
+        if (!executor_.ended() && !broken_)
+            report_.error("nc.no-end", "the program ends without M30, M2 or M17",
+                          {file_name, source_.lineNumber(), 0, {}});
+        if (executor_.ended() && source_.index() == nullptr) warnOfTheRest();
+        summary_.motions = executor_.motions();
+        return summary_;
+    }
+
+private:
+    void one() {
+        const std::size_t errors_before = report_.errorCount();
+        if (!source_.next(block_.line, report_) || flow_.ranOut()) {
+            aborted_ = true;
+            broken_ = report_.errorCount() > errors_before;
+            return;
+        }
+        block_.where = source_.where();
+        summary_.lines = std::max(summary_.lines, source_.lineNumber());
+        if (runsAway()) return;
+        checkLength(block_, report_);
+        if (!parseBlock(block_, report_)) return;
+        warnOfSkippedBlock(block_, skip_warned_, report_);
+        if (block_.is_header) checkHeader(block_, summary_.blocks, report_);
+        if (block_.words.empty()) return;
+        ++summary_.blocks;
+        const std::size_t errors_before_flow = report_.errorCount();
+        if (flow_.takes(block_)) {
+            aborted_ = broken_ = !flow_.run(block_);
+            return;
+        }
+        // An unknown word may be a subprogram of this file; keeping the whole text to find out may have failed.
+        aborted_ = broken_ = report_.errorCount() > errors_before_flow;
+        if (aborted_) return;
+        executor_.run(block_, contents_.read(block_), flow_.inSubprogram());
+        if (executor_.returned()) flow_.leaveSubprogram();
+    }
+
+    /// Lines run again find the same errors again, and a program without end would find them for ever.
+    bool runsAway() {
+        if (source_.repeatedLines() == repeated_) return false;
+        repeated_ = source_.repeatedLines();
+        if (repeated_ > options_.max_repeated_lines)
+            report_.error(
+                "nc.endless",
+                fmt::format("{} lines were run a second time and more without an end: the program does not end",
+                            options_.max_repeated_lines),
+                source_.where());
+        aborted_ = broken_ = report_.hasErrors();
+        return aborted_;
+    }
+
+    void warnOfTheRest() {
+        while (source_.next(block_.line, report_))
+            if (!isBlank(block_.line))
+                return report_.warning("nc.after-end", "what follows the end of the program is not read",
+                                       source_.where());
+    }
+
+    const ReaderOptions& options_;
+    base::Diagnostics& report_;
+    ProgramSource source_;
+    ContentReader contents_;
+    Executor executor_;
+    ProgramFlow flow_;
+    Block block_;
+    ReadSummary summary_;
+    std::size_t repeated_ = 0;
+    bool skip_warned_ = false;
+    bool aborted_ = false;
+    bool broken_ = false;  ///< for a reason that is reported
+};
+
 }  // namespace
 
 ReadSummary readProgram(std::istream& in, const std::string& file_name, const MachineFile& machine,
                         const ReaderOptions& options, ProgramSink& sink, base::Diagnostics& report) {
-    ReadSummary summary;
     const ForwardChain chain(machine.machine);
     if (chain.rotaryCount() > max_rotary_axes) {
         report.error("nc.machine", fmt::format("the machine has more than {} rotary axes", max_rotary_axes),
                      {file_name, 0, 0, {}});
-        return summary;
+        return {};
     }
-    LineSource lines(in, file_name, options.max_line_bytes);
-    ContentReader contents(machine.machine, chain, options, report);
-    Executor executor(machine, chain, sink, report);
-    Block block;
-    bool skip_warned = false;
-    bool aborted = false;
-    while (!executor.ended()) {
-        const std::size_t errors_before = report.errorCount();
-        if (!lines.next(block.line, report)) {
-            aborted = report.errorCount() > errors_before;
-            break;
-        }
-        block.where = lines.where();
-        checkLength(block, report);
-        if (!parseBlock(block, report)) continue;
-        warnOfSkippedBlock(block, skip_warned, report);
-        if (block.is_header) checkHeader(block, summary.blocks, report);
-        if (block.words.empty()) continue;
-        ++summary.blocks;
-        executor.run(block, contents.read(block));
-    }
-    summary.lines = lines.lineNumber();
-    summary.motions = executor.motions();
-    if (!executor.ended() && !aborted)
-        report.error("nc.no-end", "the program ends without M30, M2 or M17", {file_name, summary.lines, 0, {}});
-    while (executor.ended() && lines.next(block.line, report))
-        if (!isBlank(block.line)) {
-            report.warning("nc.after-end", "what follows the end of the program is not read", lines.where());
-            break;
-        }
-    return summary;
+    return Run(in, file_name, machine, chain, options, sink, report).all(file_name);
 }
 
 }  // namespace cusp::post::reader

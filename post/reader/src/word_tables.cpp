@@ -33,8 +33,6 @@ struct Refused {
     std::string_view what;
 };
 
-constexpr std::string_view a_jump = "a jump";
-constexpr std::string_view a_control_structure = "a control structure";
 constexpr std::string_view a_frame = "a programmable frame";
 constexpr std::string_view a_subprogram = "a subprogram call";
 constexpr std::string_view a_cycle = "a machining cycle";
@@ -42,32 +40,19 @@ constexpr std::string_view a_spline = "spline or polynomial interpolation";
 constexpr std::string_view a_transformation = "a transformation other than TRAORI";
 constexpr std::string_view a_synchronized_action = "a synchronized action";
 
+constexpr std::string_view flow_statements[] = {"GOTO",    "GOTOF",  "GOTOB", "GOTOC",    "GOTOS", "CASE",   "IF",
+                                                "ELSE",    "ENDIF",  "WHILE", "ENDWHILE", "FOR",   "ENDFOR", "LOOP",
+                                                "ENDLOOP", "REPEAT", "UNTIL", "PROC",     "RET"};
+/// Words with a meaning of their own in `block_content.cpp`.
+constexpr std::string_view other_words[] = {"TRAORI", "TRAFOOF", "TRAOOF", "STOPRE", "MSG", "SETMS"};
+
 constexpr Refused statements[] = {
-    {"GOTO", a_jump},
-    {"GOTOF", a_jump},
-    {"GOTOB", a_jump},
-    {"GOTOC", a_jump},
-    {"GOTOS", a_jump},
-    {"CASE", a_jump},
-    {"IF", a_control_structure},
-    {"ELSE", a_control_structure},
-    {"ENDIF", a_control_structure},
-    {"WHILE", a_control_structure},
-    {"ENDWHILE", a_control_structure},
-    {"FOR", a_control_structure},
-    {"ENDFOR", a_control_structure},
-    {"LOOP", a_control_structure},
-    {"ENDLOOP", a_control_structure},
-    {"REPEAT", a_control_structure},
-    {"REPEATB", a_control_structure},
-    {"UNTIL", a_control_structure},
-    {"PROC", "a subprogram heading"},
+    {"REPEATB", "a repetition of blocks"},
     {"EXTERN", a_subprogram},
     {"CALL", a_subprogram},
     {"PCALL", a_subprogram},
     {"EXTCALL", a_subprogram},
     {"ISOCALL", a_subprogram},
-    {"RET", a_subprogram},
     {"MCALL", "a modal subprogram call"},
     {"WHEN", a_synchronized_action},
     {"WHENEVER", a_synchronized_action},
@@ -186,6 +171,11 @@ std::string_view lookUp(const Refused (&table)[N], std::string_view name) {
     return found == std::end(table) ? std::string_view() : found->what;
 }
 
+template <std::size_t N>
+bool contains(const std::string_view (&table)[N], std::string_view name) {
+    return std::find(std::begin(table), std::end(table), name) != std::end(table);
+}
+
 /// Settable frames: G500, G54–G57, G505–G599. Their names live for the whole run, so that state can point to them.
 const std::array<std::string, 600>& frameNames() {
     static const std::array<std::string, 600> names = [] {
@@ -287,7 +277,15 @@ std::string_view refusedCode(int g_number) {
 
 std::string_view refusedAddress(std::string_view name) { return lookUp(refused_addresses, name); }
 
-bool isStatement(std::string_view name) { return name == "DEF" || !lookUp(statements, name).empty(); }
+bool isFlowStatement(std::string_view name) { return contains(flow_statements, name); }
+
+bool isStatement(std::string_view name) {
+    return name == "DEF" || isFlowStatement(name) || !lookUp(statements, name).empty();
+}
+
+bool isVocabulary(std::string_view name) {
+    return findGroupCode(name) || !refusedWord(name).empty() || contains(other_words, name);
+}
 
 bool isAddressWithoutEquals(std::string_view name) {
     const std::size_t digits = name.find_first_of("0123456789");

@@ -41,6 +41,10 @@ struct GroupCode {
 
 /// Words that take the rest of the block: DEF, and what this reader refuses but must not mistake for words.
 [[nodiscard]] bool isStatement(std::string_view name);
+/// Those of them that say which block runs next.
+[[nodiscard]] bool isFlowStatement(std::string_view name);
+/// Keywords and calls that have a meaning on the control, known or refused here: no names of subprograms.
+[[nodiscard]] bool isVocabulary(std::string_view name);
 /// "CR5": an address that needs '=' and has none.
 [[nodiscard]] bool isAddressWithoutEquals(std::string_view name);
 

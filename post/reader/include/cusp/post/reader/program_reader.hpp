@@ -19,15 +19,19 @@ struct ReaderOptions {
     /// Blocks longer than the control takes (512 characters) are errors, but a line longer than this ends the read: a
     /// binary file must not be taken for one huge block.
     std::size_t max_line_bytes = 64 * 1024;
+    /// Loops may run this many lines a second time and more, all loops together; then the program is taken for endless.
+    std::size_t max_repeated_lines = 1'000'000;
 };
 
 struct ReadSummary {
     std::size_t lines = 0;
-    std::size_t blocks = 0;  ///< lines with at least one word
+    std::size_t blocks = 0;  ///< lines with at least one word, as often as they were run
     std::size_t motions = 0;
 };
 
-/// Streams: memory does not grow with the program. Every problem is reported with its line, and reading goes on after
+/// Streams: memory does not grow with the program, unless it has jumps, loops or subprograms; from the first of these on
+/// it is kept whole, which needs a stream that can be read again from its beginning (of a pipe, the blocks before the first
+/// jump are out of its reach). Every problem is reported with its line, and reading goes on after
 /// those that leave the rest readable; what was handed to the sink is only meaningful when `report` gained no error.
 /// Errors: `nc.unsupported` (a word whose effect this reader cannot compute, by name), `nc.unknown-word`, `nc.syntax`,
 /// and the others that post/reader/README.md lists.
