@@ -69,6 +69,11 @@ struct StepText {
     }
     std::string operator()(const Approach& item) const { return "approach " + motion(item); }
     std::string operator()(const Move& item) const { return "move " + motion(item); }
+    std::string operator()(const ArcMove& item) const {
+        return fmt::format("arc {}{} I{:.4f} J{:.4f}{}{}", item.clockwise ? "cw" : "ccw", tip(item.end_mm),
+                           item.center_from_start_mm.x(), item.center_from_start_mm.y(), rotary(item.rotary_rad),
+                           feed(item.feed));
+    }
     std::string operator()(const Pause& item) const { return fmt::format("pause {:.3f} s", item.seconds); }
     std::string operator()(const Stop& item) const { return item.optional ? "optional-stop" : "stop"; }
     std::string operator()(const End&) const { return "end"; }

@@ -109,7 +109,8 @@ struct SinumerikWriter::State {
     void motionCode(int code) {
         if (motion_code == code) return;
         motion_code = code;
-        word(code == 0 ? "G0" : "G1");
+        static constexpr std::array<std::string_view, 4> names{"G0", "G1", "G2", "G3"};
+        word(names[static_cast<std::size_t>(code)]);
     }
     void linearWord(std::size_t axis, double mm) {
         static constexpr std::array<std::string_view, 3> names{"X", "Y", "Z"};
@@ -271,6 +272,23 @@ struct SinumerikWriter::State {
     void dropBlock() {
         const std::size_t line = buffer.rfind('\n');
         buffer.erase(line == std::string::npos ? 0 : line + 1);
+    }
+
+    void write(const ArcMove& item) {
+        openBlock();
+        feedMode(item.feed);
+        motionCode(item.clockwise ? 2 : 3);
+        // A full circle ends where it starts: its end point is printed whether it changed or not.
+        linear[0].reset();
+        linear[1].reset();
+        linearWord(0, item.end_mm.x());
+        linearWord(1, item.end_mm.y());
+        linearWord(2, item.end_mm.z());
+        value("I", toFixed(item.center_from_start_mm.x(), linear_decimals), linear_decimals);
+        value("J", toFixed(item.center_from_start_mm.y(), linear_decimals), linear_decimals);
+        rotaryWords(item.rotary_rad);
+        feedWord(item.feed);
+        closeBlock();
     }
 
     void write(const Pause& item) {

@@ -93,6 +93,19 @@ TEST_F(Writer, ApproachGoesInThePlaneFirst) {
     EXPECT_EQ(write(feed), "; P\nN10 G0 X10 Y20 C0 A0\nN20 G94 G1 Z30 F600\n");
 }
 
+TEST_F(Writer, ArcsPrintEndAndCentre) {
+    const ArcMove arc{{0, 10, 3}, {-10, 0, 0}, false, {0, 0}, {10.0, FeedRate::Unit::MmPerS}};
+    const ArcMove circle{{0, 10, 3}, {0, -10, 0}, true, {0, 0}, {10.0, FeedRate::Unit::MmPerS}};
+    EXPECT_EQ(
+        write(feedMove(10, 0, 3, 0, 0, 600), arc, circle, feedMove(0, 10, 3, 0, 0, 600), feedMove(1, 10, 3, 0, 0, 600)),
+        "; P\n"
+        "N10 G94 G1 X10 Y0 Z3 C0 A0 F600\n"
+        "N20 G3 X0 Y10 I-10 J0\n"
+        "N30 G2 X0 Y10 I0 J-10\n"
+        "N40 G1\n"
+        "N50 X1\n");
+}
+
 TEST_F(Writer, FeedPerRevolution) {
     const Move per_rev{{1, 0, 0}, {0, 0}, MotionKind::Feed, {0.125, FeedRate::Unit::MmPerRev}};
     EXPECT_EQ(write(feedMove(0, 0, 0, 0, 0, 100), per_rev), "; P\nN10 G94 G1 X0 Y0 Z0 C0 A0 F100\nN20 G95 X1 F0.125\n");

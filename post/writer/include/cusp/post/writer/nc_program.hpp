@@ -81,6 +81,16 @@ struct Move {
     toolpath::FeedRate feed;  ///< meaningful when kind is Feed
 };
 
+/// A circular or helical move in the XY plane of the workpiece frame; the rotary axes stand still. Arcs in other planes
+/// become straight moves before they get here: a change of plane would turn the tool length into another axis.
+struct ArcMove {
+    geometry::Vector3 end_mm = geometry::Vector3::Zero();
+    geometry::Vector3 center_from_start_mm = geometry::Vector3::Zero();
+    bool clockwise = false;  ///< seen from +Z
+    RotaryValues rotary_rad{};
+    toolpath::FeedRate feed;
+};
+
 struct Pause {
     double seconds = 0.0;
 };
@@ -92,7 +102,7 @@ struct Stop {
 struct End {};
 
 using NcItem = std::variant<Comment, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset,
-                            Spindle, Coolant, PositionRotary, TipProgramming, Approach, Move, Pause, Stop, End>;
+                            Spindle, Coolant, PositionRotary, TipProgramming, Approach, Move, ArcMove, Pause, Stop, End>;
 
 /// One step of the program and the CL line it stands for (0: none).
 struct NcStep {
