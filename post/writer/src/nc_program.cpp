@@ -5,6 +5,7 @@
 
 #include <cusp/base/units.hpp>
 
+#include <array>
 #include <fmt/format.h>
 
 namespace cusp::post {
@@ -74,6 +75,18 @@ struct StepText {
                            item.center_from_start_mm.x(), item.center_from_start_mm.y(), rotary(item.rotary_rad),
                            feed(item.feed));
     }
+    std::string operator()(const HoleCycle& item) const {
+        static constexpr std::array<const char*, 5> kinds{"drill", "deep", "break-chip", "bore", "tap"};
+        return fmt::format(
+            "hole-cycle {} retract Z{:.4f} surface Z{:.4f} clearance {:.4f} depth {:.4f} dwell {:.3f} peck "
+            "{:.4f} {:.4f} pitch {:.4f}{}",
+            kinds[static_cast<std::size_t>(item.kind)], item.retract_z_mm, item.surface_z_mm, item.clearance_mm,
+            item.depth_mm, item.dwell_s, item.first_peck_mm, item.peck_mm, item.pitch_mm, feed(item.feed));
+    }
+    std::string operator()(const HolePosition& item) const {
+        return fmt::format("hole X{:.4f} Y{:.4f}", item.x_mm, item.y_mm) + rotary(item.rotary_rad);
+    }
+    std::string operator()(const HoleCycleOff&) const { return "hole-cycle off"; }
     std::string operator()(const Pause& item) const { return fmt::format("pause {:.3f} s", item.seconds); }
     std::string operator()(const Stop& item) const { return item.optional ? "optional-stop" : "stop"; }
     std::string operator()(const End&) const { return "end"; }

@@ -4,6 +4,7 @@
 #include <cusp/post/writer/sinumerik_writer.hpp>
 
 #include "fixed_number.hpp"
+#include "hole_cycle_call.hpp"
 
 #include <cusp/base/units.hpp>
 
@@ -59,6 +60,7 @@ struct SinumerikWriter::State {
     int rotary_decimals = 5;
 
     std::string buffer;
+    std::size_t first_word = 0;  ///< where the words of the open block begin
     std::size_t blocks = 0;
 
     // What the control already knows, in print; empty after anything that moves the axes in another frame.
@@ -74,6 +76,7 @@ struct SinumerikWriter::State {
             buffer += 'N';
             appendFixed(buffer, static_cast<std::int64_t>(blocks + 1) * step, 0);
         }
+        first_word = buffer.size();
     }
     void word(std::string_view text) {
         if (!buffer.empty() && buffer.back() != '\n') buffer += ' ';
@@ -83,6 +86,12 @@ struct SinumerikWriter::State {
         word(address);
         if (needsEquals(address)) buffer += '=';
         appendFixed(buffer, fixed, decimals);
+    }
+    /// Closes the block, or takes it back when it holds no word.
+    void closeOrDrop() {
+        if (buffer.size() > first_word) return closeBlock();
+        const std::size_t line = buffer.rfind('\n');
+        buffer.erase(line == std::string::npos ? 0 : line + 1);
     }
     void closeBlock() {
         buffer += '\n';
@@ -259,19 +268,13 @@ struct SinumerikWriter::State {
 
     void write(const Move& item) {
         openBlock();
-        const std::size_t before = buffer.size();
         if (item.kind == MotionKind::Feed) feedMode(item.feed);
         motionCode(item.kind == MotionKind::Rapid ? 0 : 1);
         for (std::size_t axis = 0; axis < 3; ++axis) linearWord(axis, item.tip_mm[static_cast<Eigen::Index>(axis)]);
         rotaryWords(item.rotary_rad);
         if (item.kind == MotionKind::Feed) feedWord(item.feed);
-        if (buffer.size() == before) return dropBlock();
-        closeBlock();
-    }
-    /// A point that equals the last one in print: the machine has nothing to do.
-    void dropBlock() {
-        const std::size_t line = buffer.rfind('\n');
-        buffer.erase(line == std::string::npos ? 0 : line + 1);
+        // A point that equals the last one in print: the machine has nothing to do.
+        closeOrDrop();
     }
 
     void write(const ArcMove& item) {
@@ -289,6 +292,32 @@ struct SinumerikWriter::State {
         rotaryWords(item.rotary_rad);
         feedWord(item.feed);
         closeBlock();
+    }
+
+    /// Modal call of a drilling cycle; the feed is the one that holds (840D sl Programming Manual Job Planning, cycles).
+    void write(const HoleCycle& item) {
+        openBlock();
+        feedMode(item.feed);
+        feedWord(item.feed);
+        closeOrDrop();
+        block("MCALL " + holeCycleCall(item, linear_decimals));
+        motion_code.reset();
+    }
+    void write(const HolePosition& item) {
+        openBlock();
+        motionCode(0);
+        linear[0].reset();
+        linear[1].reset();
+        linearWord(0, item.x_mm);
+        linearWord(1, item.y_mm);
+        rotaryWords(item.rotary_rad);
+        closeBlock();
+        // The cycle leaves the tool at its retract height.
+        linear[2].reset();
+    }
+    void write(const HoleCycleOff&) {
+        block("MCALL");
+        forgetPosition();
     }
 
     void write(const Pause& item) {

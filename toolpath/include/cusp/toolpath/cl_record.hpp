@@ -59,6 +59,8 @@ struct FeedRate {
     enum class Unit : std::uint8_t { MmPerS, MmPerRev };
     double value = 0.0;
     Unit unit = Unit::MmPerS;
+
+    bool operator==(const FeedRate&) const = default;
 };
 
 /// CYCLE/…: from here to `CycleEnd` every location is a hole. Heights are above the hole's location, along the tool

@@ -91,6 +91,31 @@ struct ArcMove {
     toolpath::FeedRate feed;
 };
 
+/// From here every `HolePosition` is a hole along Z, until `HoleCycleOff`. Heights are absolute, in the workpiece frame.
+struct HoleCycle {
+    toolpath::CycleStart::Kind kind = toolpath::CycleStart::Kind::Drill;
+    double retract_z_mm = 0.0;
+    double surface_z_mm = 0.0;
+    double clearance_mm = 0.0;  ///< above the surface, where the feed begins
+    double depth_mm = 0.0;      ///< below the surface
+    double dwell_s = 0.0;
+    double first_peck_mm = 0.0;
+    double peck_mm = 0.0;
+    double pitch_mm = 0.0;  ///< of a tapped thread, > 0 right-hand
+    double speed_rpm = 0.0;
+    toolpath::FeedRate feed;
+
+    bool operator==(const HoleCycle&) const = default;
+};
+
+struct HolePosition {
+    double x_mm = 0.0;
+    double y_mm = 0.0;
+    RotaryValues rotary_rad{};
+};
+
+struct HoleCycleOff {};
+
 struct Pause {
     double seconds = 0.0;
 };
@@ -102,7 +127,8 @@ struct Stop {
 struct End {};
 
 using NcItem = std::variant<Comment, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset,
-                            Spindle, Coolant, PositionRotary, TipProgramming, Approach, Move, ArcMove, Pause, Stop, End>;
+                            Spindle, Coolant, PositionRotary, TipProgramming, Approach, Move, ArcMove, HoleCycle,
+                            HolePosition, HoleCycleOff, Pause, Stop, End>;
 
 /// One step of the program and the CL line it stands for (0: none).
 struct NcStep {
