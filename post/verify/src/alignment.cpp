@@ -62,13 +62,18 @@ Alignment::Alignment(const MachineFile& machine, const ExpectedPath* expected, c
 
 void Alignment::event(const reader::BlockPlace& place, const reader::ExecutedEvent& event) {
     static_cast<void>(place);
-    static_cast<void>(event);
+    const auto* dwell = std::get_if<reader::DwellTime>(&event);
+    if (dwell != nullptr) dwelt_s_ = dwelt_s_.value_or(0.0) + dwell->seconds.value_or(0.0);
 }
 
 void Alignment::motion(const ExecutedMotion& motion) {
     if (motion.vector_programmed) report_.rotary_limits_checked = false;
     checkLimits(motion);
-    if (expected_ != nullptr) return compare(motion);
+    if (expected_ != nullptr) {
+        compare(motion);
+        dwelt_s_.reset();
+        return;
+    }
     const bool idle = !isRapid(motion) && motion.state->spindle == reader::SpindleTurn::Off;
     if (idle) findings_.warning("verify.spindle-off", motion.place, "the spindle is off in a feed move");
 }
@@ -147,7 +152,9 @@ bool Alignment::meetsNext(const ExecutedMotion& motion) {
 
 /// A CL point at the place where the path already stands needs no block.
 void Alignment::passPointsAlreadyMet() {
-    while (!done() && at_ && difference(*at_, expected_->points[next_].pose).within(tolerance_)) {
+    // An arc that ends where it begins is a full circle, and has to be run.
+    while (!done() && at_ && expected_->points[next_].arc == none &&
+           difference(*at_, expected_->points[next_].pose).within(tolerance_)) {
         ++report_.matched;
         ++next_;
         fraction_ = 0.0;
@@ -157,7 +164,8 @@ void Alignment::passPointsAlreadyMet() {
 bool Alignment::onTheWay(const ExecutedMotion& motion) {
     if (done() || next_ == 0 || (!at_ && expected_->points[next_].opens)) return false;
     const auto fraction = nextMove().fractionOf(*motion.end_pose, tolerance_);
-    if (!fraction || *fraction < fraction_ - 1e-9) return false;
+    const ExpectedCycle* hole = nextHole();
+    if (!fraction || (hole == nullptr && *fraction < fraction_ - 1e-9)) return false;
     if (held_) extra(*held_);
     held_.reset();
     const ExpectedPoint& point = expected_->points[next_];
@@ -169,7 +177,10 @@ bool Alignment::onTheWay(const ExecutedMotion& motion) {
         return true;
     }
     ++report_.intermediate;
-    checkKind(motion, point);
+    if (hole != nullptr)
+        inHole(motion, *hole, *fraction);
+    else
+        checkKind(motion, point);
     checkBetween(motion, *fraction);
     checkTurns(motion, point.line);
     if (!isRapid(motion))
@@ -202,12 +213,14 @@ void Alignment::meet(const ExecutedMotion& motion, std::size_t index) {
     raise(report_.max_axis_error_rad, error.axis_rad, motion.place, point.line);
     next_ = index;
     checkKind(motion, point);
+    if (const ExpectedCycle* hole = nextHole()) inHole(motion, *hole, 1.0);
+    if (point.leaves_hole) checkDwell(motion, point);
     if (index > 0 && at_) checkBetween(motion, 1.0);
     checkTurns(motion, point.line);
     if (!isRapid(motion))
         checkProcess(motion, expected_->processes[point.process], point.line, process_limits_, findings_);
     next_ = index + 1;
-    fraction_ = 0.0;
+    fraction_ = drilled_ = 0.0;
     at_ = motion.end_pose;
 }
 
@@ -239,12 +252,63 @@ void Alignment::displaced(const Held& held) {
 }
 
 void Alignment::drop(std::size_t until) {
+    const bool only_optional = std::all_of(expected_->points.begin() + static_cast<std::ptrdiff_t>(next_),
+                                           expected_->points.begin() + static_cast<std::ptrdiff_t>(until),
+                                           [](const ExpectedPoint& point) { return point.optional; });
+    fraction_ = 0.0;
     for (; next_ < until; ++next_) {
+        if (expected_->points[next_].optional) {
+            ++report_.matched;
+            continue;
+        }
         ++report_.missed;
         findings_.missing("verify.missed",
                           fmt::format("CL line {}: no block ends at this point", expected_->points[next_].line));
     }
-    at_.reset();
+    if (!only_optional) at_.reset();
+}
+
+ExpectedMove Alignment::nextMove() const {
+    const ExpectedPoint& point = expected_->points[next_];
+    ExpectedMove move{expected_->points[next_ - 1].pose, point.pose, nullptr};
+    if (point.arc == none) return move;
+    move.arc = &expected_->arcs[point.arc];
+    move.from.tip_mm = move.arc->start_mm;
+    return move;
+}
+
+const ExpectedCycle* Alignment::nextHole() const {
+    const std::uint32_t cycle = done() ? none : expected_->points[next_].cycle;
+    return cycle == none ? nullptr : &expected_->cycles[cycle];
+}
+
+/// On the way to the bottom the tool may go up and down: at rapid where it has cut, at the feed below, and no further at
+/// once than the peck.
+void Alignment::inHole(const ExecutedMotion& motion, const ExpectedCycle& cycle, double fraction) {
+    const std::size_t line = expected_->points[next_].line;
+    const double way = cycle.approach_mm + cycle.depth_mm;
+    const double deeper = std::max(0.0, fraction * way - std::max(drilled_ * way, cycle.approach_mm));
+    if (deeper <= tolerance_.tip_mm) return;
+    if (isRapid(motion) && fraction < 1.0)
+        findings_.error(
+            "verify.kind", motion.place,
+            fmt::format("a rapid (G0) goes {:.4g} mm into uncut material in the hole of CL line {}", deeper, line));
+    if (cycle.largest_peck_mm && deeper > *cycle.largest_peck_mm + tolerance_.tip_mm)
+        findings_.error("verify.cycle", motion.place,
+                        fmt::format("drills {:.4g} mm at once in the hole of CL line {}, which is drilled by {:.4g} mm",
+                                    deeper, line, *cycle.largest_peck_mm));
+    drilled_ = std::max(drilled_, fraction);
+}
+
+/// On the way out of a hole.
+void Alignment::checkDwell(const ExecutedMotion& motion, const ExpectedPoint& point) {
+    std::size_t bottom = next_;
+    while (bottom > 0 && expected_->points[bottom].cycle == none) --bottom;
+    const ExpectedCycle& cycle = expected_->cycles[expected_->points[bottom].cycle];
+    if (!cycle.dwell_s || std::abs(dwelt_s_.value_or(0.0) - *cycle.dwell_s) <= 1e-3) return;
+    findings_.error("verify.cycle", motion.place,
+                    fmt::format("dwells {:.4g} s at the bottom of the hole of CL line {}, which has {:.4g} s",
+                                dwelt_s_.value_or(0.0), point.line, *cycle.dwell_s));
 }
 
 void Alignment::checkKind(const ExecutedMotion& motion, const ExpectedPoint& point) {

@@ -51,9 +51,10 @@ private:
     void checkTurns(const reader::ExecutedMotion& motion, std::size_t cl_line);
     [[nodiscard]] bool done() const { return next_ >= expected_->points.size(); }
     [[nodiscard]] bool atOpening() const { return done() || expected_->points[next_].opens; }
-    [[nodiscard]] ExpectedMove nextMove() const {
-        return {expected_->points[next_ - 1].pose, expected_->points[next_].pose};
-    }
+    [[nodiscard]] ExpectedMove nextMove() const;
+    [[nodiscard]] const ExpectedCycle* nextHole() const;
+    void inHole(const reader::ExecutedMotion& motion, const ExpectedCycle& cycle, double fraction);
+    void checkDwell(const reader::ExecutedMotion& motion, const ExpectedPoint& point);
 
     const reader::ForwardChain chain_;
     const ExpectedPath* expected_;
@@ -65,6 +66,8 @@ private:
 
     std::size_t next_ = 0;
     double fraction_ = 0.0;               ///< how far the path has come from point next_−1 to next_
+    double drilled_ = 0.0;                ///< the part of the way to the bottom of a hole that is cut
+    std::optional<double> dwelt_s_;       ///< since the last motion
     std::optional<reader::ToolPose> at_;  ///< where the path stands: the last block end on it
     std::optional<Held> held_;
 };

@@ -48,10 +48,15 @@ PoseError difference(const reader::ToolPose& a, const reader::ToolPose& b) {
 }
 
 std::optional<double> ExpectedMove::fractionOf(const reader::ToolPose& pose, const Tolerance& tolerance) const {
-    const Projection tip = onLine(pose.tip_mm, from.tip_mm, to.tip_mm);
+    Projection tip;
+    if (arc != nullptr) {
+        tip.fraction = arc->fractionOf(pose.tip_mm);
+        tip.distance = reader::norm(pose.tip_mm - arc->at(tip.fraction));
+    } else
+        tip = onLine(pose.tip_mm, from.tip_mm, to.tip_mm);
     const Projection axis = onGreatCircle(pose.axis, from.axis, to.axis);
     if (tip.distance > tolerance.tip_mm || axis.distance > tolerance.axis_rad) return std::nullopt;
-    return reader::norm(to.tip_mm - from.tip_mm) > tolerance.tip_mm ? tip.fraction : axis.fraction;
+    return arc != nullptr || reader::norm(to.tip_mm - from.tip_mm) > tolerance.tip_mm ? tip.fraction : axis.fraction;
 }
 
 PoseError strayBetween(const reader::ExecutedMotion& motion, const reader::ForwardChain& chain,
@@ -59,14 +64,17 @@ PoseError strayBetween(const reader::ExecutedMotion& motion, const reader::Forwa
     PoseError worst;
     const double turn =
         std::max({reader::rotaryTravel(motion), reader::angleBetween(motion.start_pose->axis, motion.end_pose->axis),
-                  motion.arc ? std::abs(motion.arc->sweep_rad) : 0.0});
+                  motion.arc ? std::abs(motion.arc->sweep_rad) : 0.0,
+                  move.arc != nullptr ? std::abs(to - from) * move.arc->sweep_rad : 0.0});
     if (turn == 0.0) return worst;  // a straight tip between two ends that were checked
     const double count = std::clamp(std::ceil(turn / sample_step_rad), fewest_samples, most_samples);
     for (double sample = 1.0; sample < count; sample += 1.0) {
         const double fraction = sample / count;
         const reader::ToolPose pose = reader::poseAt(motion, chain, fraction);
         const Vector3 wanted = reader::onGreatCircle(move.from.axis, move.to.axis, from + fraction * (to - from));
-        worst.tip_mm = std::max(worst.tip_mm, onLine(pose.tip_mm, move.from.tip_mm, move.to.tip_mm).distance);
+        const double off = move.arc != nullptr ? reader::norm(pose.tip_mm - move.arc->at(from + fraction * (to - from)))
+                                               : onLine(pose.tip_mm, move.from.tip_mm, move.to.tip_mm).distance;
+        worst.tip_mm = std::max(worst.tip_mm, off);
         worst.axis_rad = std::max(worst.axis_rad, reader::angleBetween(pose.axis, wanted));
     }
     return worst;

@@ -3,6 +3,8 @@
 // Where a block lies on the CL move it runs along, and how far it strays from it between its ends.
 #pragma once
 
+#include "expected_path.hpp"
+
 #include <cusp/post/reader/executed_program.hpp>
 #include <cusp/post/reader/forward_chain.hpp>
 
@@ -25,17 +27,18 @@ struct PoseError {
 
 [[nodiscard]] PoseError difference(const reader::ToolPose& a, const reader::ToolPose& b);
 
-/// The move of a CL file between two of its points: the tip straight, the axis on the great circle.
+/// The move of a CL file between two of its points: the tip straight or on an arc, the axis on the great circle.
 struct ExpectedMove {
     reader::ToolPose from;
     reader::ToolPose to;
+    const ExpectedArc* arc = nullptr;
 
     /// Where `pose` lies on the move, 0 to 1, when tip and axis both lie on it within tolerance.
     [[nodiscard]] std::optional<double> fractionOf(const reader::ToolPose& pose, const Tolerance& tolerance) const;
 };
 
 /// Largest departures from `move` of a block that runs from fraction `from` to fraction `to` of it, sampled as the control
-/// interpolates. The tip is held against the line, the axis against the great circle at the same fraction.
+/// interpolates. The tip is held against the line, or against the arc at the same fraction; the axis against the great circle at the same fraction.
 [[nodiscard]] PoseError strayBetween(const reader::ExecutedMotion& motion, const reader::ForwardChain& chain,
                                      const ExpectedMove& move, double from, double to);
 

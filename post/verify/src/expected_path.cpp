@@ -3,11 +3,18 @@
 // One walk over the records, carrying what is modal in a CL file.
 #include "expected_path.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace cusp::post::verify {
 
 namespace {
 
+constexpr double full_turn = 2.0 * std::numbers::pi;
+
 reader::Vector3 toReader(const geometry::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+reader::ToolPose toReader(const toolpath::CutterLocation& at) { return {toReader(at.tip_mm), toReader(at.axis)}; }
 
 class Walk {
 public:
@@ -15,17 +22,74 @@ public:
         : out_(out), file_(file), report_(report) {}
 
     void operator()(const toolpath::LinearMotion& motion) {
-        if (process_changed_ || out_.processes.empty()) out_.processes.push_back(process_);
-        process_changed_ = false;
-        ExpectedPoint point;
-        point.pose = {toReader(motion.location.tip_mm), toReader(motion.location.axis)};
-        point.line = line;
-        point.process = static_cast<std::uint32_t>(out_.processes.size() - 1);
-        point.rapid = motion.kind == toolpath::MotionKind::Rapid;
-        point.opens = opens_;
-        opens_ = false;
-        out_.points.push_back(point);
+        add(toReader(motion.location), motion.kind == toolpath::MotionKind::Rapid);
     }
+
+    void operator()(const toolpath::ArcMotion& motion) {
+        const reader::ToolPose end = toReader(motion.end);
+        const reader::Vector3 normal = toReader(motion.normal);
+        ExpectedArc arc;
+        arc.start_mm = tip_mm_;
+        arc.normal = normal;
+        const auto height = [&](const reader::Vector3& point) { return reader::dot(normal, point - arc.start_mm); };
+        const reader::Vector3 center = toReader(motion.center_mm);
+        arc.center_mm = center - height(center) * normal;
+        arc.height_mm = height(end.tip_mm);
+        const reader::Vector3 from = arc.start_mm - arc.center_mm;
+        const reader::Vector3 to = end.tip_mm - arc.center_mm - arc.height_mm * normal;
+        arc.end_radius_mm = reader::norm(to);
+        arc.sweep_rad = std::atan2(reader::dot(normal, reader::cross(from, to)), reader::dot(from, to));
+        if (motion.full_circle)
+            arc.sweep_rad = full_turn;
+        else if (arc.sweep_rad <= 0.0)
+            arc.sweep_rad += full_turn;
+        ExpectedPoint& point = add(end, false);
+        point.arc = static_cast<std::uint32_t>(out_.arcs.size());
+        out_.arcs.push_back(arc);
+    }
+
+    void operator()(const toolpath::StartPosition& start) {
+        tip_mm_ = toReader(start.location.tip_mm);
+        opens_ = true;
+    }
+    void operator()(const toolpath::HomeReturn&) { opens_ = true; }
+
+    void operator()(const toolpath::CycleStart& cycle) {
+        using Kind = toolpath::CycleStart::Kind;
+        cycle_ = cycle;
+        ExpectedCycle expected;
+        expected.approach_mm = cycle.clearance_mm.value_or(cycle.retract_mm.value_or(0.0));
+        expected.depth_mm = cycle.depth_mm;
+        expected.dwell_s = cycle.dwell_s;
+        expected.reverses = cycle.kind == Kind::Tap;
+        if ((cycle.kind == Kind::Deep || cycle.kind == Kind::BreakChip) && cycle.peck_mm)
+            expected.largest_peck_mm = std::max(*cycle.peck_mm, cycle.first_peck_mm.value_or(0.0));
+        out_.cycles.push_back(expected);
+        modal_feed_ = process_.feed;
+        if (cycle.feed) change().feed = cycle.feed;
+    }
+
+    /// Above the hole, down to where the feed begins, to the bottom, and out; a bore and a tap leave at the feed.
+    void operator()(const toolpath::HoleLocation& hole) {
+        const reader::ToolPose at = toReader(hole.location);
+        const auto above = [&](double height) { return reader::ToolPose{at.tip_mm + height * at.axis, at.axis}; };
+        const ExpectedCycle& cycle = out_.cycles.back();
+        const double retract = cycle_.retract_mm.value_or(cycle.approach_mm);
+        using Kind = toolpath::CycleStart::Kind;
+        add(above(retract), true).optional = true;
+        add(above(cycle.approach_mm), true).optional = !cycle_.clearance_mm;
+        add(above(-cycle.depth_mm), false).cycle = static_cast<std::uint32_t>(out_.cycles.size() - 1);
+        const bool at_feed = cycle_.kind == Kind::Bore || cycle_.kind == Kind::Tap;
+        if (at_feed) add(above(cycle.approach_mm), false).leaves_hole = true;
+        add(above(retract), true).leaves_hole = !at_feed;
+    }
+
+    void operator()(const toolpath::CycleEnd&) {
+        if (cycle_.feed) change().feed = modal_feed_;
+        cycle_ = {};
+    }
+
+    void operator()(const toolpath::WorkPlane&) { opens_ = true; }
     void operator()(const toolpath::FeedRate& feed) { change().feed = feed; }
     void operator()(const toolpath::SpindleCommand& command) {
         change().turn = command.turn;
@@ -44,23 +108,31 @@ public:
     void operator()(const toolpath::Remark&) {}
     void operator()(const toolpath::Dwell&) {}
     void operator()(const toolpath::ProgramEnd&) {}
-    void operator()(const toolpath::StartPosition&) {}
-    void operator()(const toolpath::WorkPlane&) { opens_ = true; }
-    void operator()(const toolpath::ArcMotion&) { refuse("arcs are"); }
-    void operator()(const toolpath::HomeReturn&) { refuse("GOHOME is"); }
-    void operator()(const toolpath::CycleStart&) { refuse("drilling cycles are"); }
-    void operator()(const toolpath::HoleLocation&) {}
-    void operator()(const toolpath::CycleEnd&) {}
     void operator()(const toolpath::CutterCompensation& command) {
-        if (command.side != toolpath::CutterCompensation::Side::Off) refuse("cutter radius compensation is");
+        if (command.side != toolpath::CutterCompensation::Side::Off) refuse("paths under CUTCOM are");
     }
 
     std::uint32_t line = 0;
 
 private:
     void refuse(const char* what) {
-        report_.error("verify.unsupported", std::string(what) + " not yet verified", {file_, line, 0, {}});
+        report_.error("verify.unsupported", std::string(what) + " not compared with programs", {file_, line, 0, {}});
     }
+
+    ExpectedPoint& add(const reader::ToolPose& pose, bool rapid) {
+        if (process_changed_ || out_.processes.empty()) out_.processes.push_back(process_);
+        process_changed_ = false;
+        ExpectedPoint& point = out_.points.emplace_back();
+        point.pose = pose;
+        point.line = line;
+        point.process = static_cast<std::uint32_t>(out_.processes.size() - 1);
+        point.rapid = rapid;
+        point.opens = opens_;
+        opens_ = false;
+        tip_mm_ = pose.tip_mm;
+        return point;
+    }
+
     ExpectedProcess& change() {
         process_changed_ = true;
         return process_;
@@ -72,9 +144,29 @@ private:
     ExpectedProcess process_;
     bool process_changed_ = true;
     bool opens_ = true;
+    reader::Vector3 tip_mm_;
+    toolpath::CycleStart cycle_;
+    std::optional<toolpath::FeedRate> modal_feed_;
 };
 
 }  // namespace
+
+reader::Vector3 ExpectedArc::at(double fraction) const {
+    const reader::Vector3 from = start_mm - center_mm;
+    const double radius = reader::norm(from);
+    const double scale = radius > 0.0 ? 1.0 + fraction * (end_radius_mm / radius - 1.0) : 1.0;
+    return center_mm + scale * reader::rotated(from, normal, fraction * sweep_rad) + (fraction * height_mm) * normal;
+}
+
+double ExpectedArc::fractionOf(const reader::Vector3& point) const {
+    const reader::Vector3 from = start_mm - center_mm;
+    const reader::Vector3 to = point - center_mm;
+    double angle = std::atan2(reader::dot(normal, reader::cross(from, to)), reader::dot(from, to));
+    if (angle < 0.0) angle += full_turn;
+    // Off both ends: the nearer one.
+    if (angle > sweep_rad) return angle - sweep_rad < full_turn - angle ? 1.0 : 0.0;
+    return angle / sweep_rad;
+}
 
 ExpectedPath expectedPath(const toolpath::ToolPath& path, base::Diagnostics& report) {
     ExpectedPath out;

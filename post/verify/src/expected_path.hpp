@@ -22,20 +22,51 @@ struct ExpectedProcess {
     std::string tool_name;
 };
 
+/// A circular or helical way from one point to the next.
+struct ExpectedArc {
+    reader::Vector3 start_mm;
+    reader::Vector3 center_mm;  ///< at the height of the start
+    reader::Vector3 normal;     ///< the motion is right-handed about it
+    double sweep_rad = 0.0;     ///< > 0, a whole turn at most
+    double end_radius_mm = 0.0;
+    double height_mm = 0.0;  ///< along the normal
+
+    [[nodiscard]] reader::Vector3 at(double fraction) const;
+    /// Of the nearest point of the arc.
+    [[nodiscard]] double fractionOf(const reader::Vector3& point) const;
+};
+
+/// What a drilling cycle of the CL file asks of the way to the bottom of each hole.
+struct ExpectedCycle {
+    double approach_mm = 0.0;               ///< from where the feed begins down to the location
+    double depth_mm = 0.0;                  ///< from the location to the bottom
+    std::optional<double> largest_peck_mm;  ///< absent: in one go
+    std::optional<double> dwell_s;          ///< at the bottom
+    bool reverses = false;                  ///< a tap: the spindle turns back on the way out
+};
+
+inline constexpr std::uint32_t none = 0xFFFFFFFF;
+
 struct ExpectedPoint {
     reader::ToolPose pose;
     std::uint32_t line = 0;
     std::uint32_t process = 0;  ///< index into `ExpectedPath::processes`
     bool rapid = false;
-    bool opens = false;  ///< first of an operation or after a tool call or stop: the program may link before it
+    std::uint32_t arc = none;    ///< index into `ExpectedPath::arcs`: the way to this point
+    std::uint32_t cycle = none;  ///< index into `ExpectedPath::cycles`: this is the bottom of a hole
+    bool leaves_hole = false;    ///< the way to this point begins at the bottom of a hole
+    bool optional = false;       ///< a program may leave it out: a height the cycle passes on its way
+    bool opens = false;          ///< first of an operation or after a tool call or stop: the program may link before it
 };
 
 struct ExpectedPath {
     std::vector<ExpectedPoint> points;
     std::vector<ExpectedProcess> processes;
+    std::vector<ExpectedArc> arcs;
+    std::vector<ExpectedCycle> cycles;
 };
 
-/// What the verifier cannot judge so far becomes the error `verify.unsupported` in `report`.
+/// CUTCOM, which leaves the path to the control, becomes the error `verify.unsupported` in `report`.
 [[nodiscard]] ExpectedPath expectedPath(const toolpath::ToolPath& path, base::Diagnostics& report);
 
 }  // namespace cusp::post::verify
