@@ -3,6 +3,8 @@
 // Real CL files against a second, naive reader: a regular expression over lines, sharing nothing with the first.
 #include "cl_text.hpp"
 
+#include <cusp/toolpath/cl_writer.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,6 +113,27 @@ INSTANTIATE_TEST_SUITE_P(, RealFiles,
                              std::replace(name.begin(), name.end(), '.', '_');
                              return name;
                          });
+
+/// Read, written, read: the same records; written again: the same text. CATIA and SolidWorks CAM files become plain APT.
+TEST_F(RealFiles, ComeBackFromTheWriter) {
+    ClReaderOptions options;
+    options.mm_per_unit = 1.0;
+    for (const char* name : {"nx_variable_axis.cls", "nx_apt_code.cls", "nx_zig.cls", "nx_zigzag_smoothed.cls",
+                             "catia_demo2.apt", "catia_demo4.apt", "swcam_wall_holes.apt"}) {
+        const std::string original = fileText(folder + name);
+        const ReadOut first = readOut(original, name[0] == 'c' ? options : ClReaderOptions{});
+        const base::Result<std::string> text = clText({name, first.dialect, 1.0, first.records});
+        ASSERT_TRUE(text.has_value()) << base::toText(text.error());
+        const ReadOut second = readOut(*text);
+        EXPECT_EQ(second.problems, "") << name;
+        ASSERT_EQ(second.records.size(), first.records.size()) << name;
+        for (std::size_t i = 0; i < first.records.size(); ++i) {
+            ASSERT_EQ(textOf(ClRecord{second.records[i].statement, 0}), textOf(ClRecord{first.records[i].statement, 0}))
+                << name << ":" << first.records[i].line;
+        }
+        EXPECT_EQ(clText({name, second.dialect, 1.0, second.records}).value_or(""), *text) << name;
+    }
+}
 
 std::string readReal(const std::string& name) { return readOut(fileText(folder + name)).problems; }
 

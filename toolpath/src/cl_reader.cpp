@@ -122,7 +122,7 @@ bool ClReader::State::step(ClRecord& record) {
 
 void ClReader::State::dispatch(const Statement& statement) {
     if (statement.is_comment) {
-        if (context.dialect->comments_carry_records && !context.program_ended) {
+        if (!context.program_ended) {
             handleComment(context, statement.text);
         }
         return;

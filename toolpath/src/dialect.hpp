@@ -28,7 +28,7 @@ struct DialectTraits {
     const char* name;  ///< for messages
     AxisRule axis_rule;
     ToolNameRule tool_name_rule;
-    /// Comments carry records: `$$*CATIA0` and `$$ OPERATION NAME :`.
+    /// Comments carry the system's records: `$$*CATIA0` and `$$ OPERATION NAME :`. Those of cusp's own are read always.
     bool comments_carry_records;
     /// Times the axis that CIRCLE names: the axis about which the motion is right-handed.
     double circle_axis_sign;

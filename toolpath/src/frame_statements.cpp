@@ -6,9 +6,14 @@
 #include "statement_table.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace cusp::toolpath::detail {
 namespace {
+
+constexpr std::string_view catia_frame = "*CATIA0";
+constexpr std::string_view own_frame = " CUSP FRAME";
+constexpr std::string_view own_plane = " CUSP PLANE";
 
 // Frames are printed with 5 to 7 decimals.
 constexpr double orthonormal_tolerance = 1e-3;
@@ -33,13 +38,6 @@ std::optional<geometry::Matrix3> frameFromAxes(const geometry::Vector3& x, const
     return frame;
 }
 
-void emitFrame(ReaderContext& context, const geometry::Matrix3& rotation, const geometry::Vector3& origin) {
-    ProgrammingFrame frame;
-    frame.part_from_programming.linear() = rotation;
-    frame.part_from_programming.translation() = origin * context.mm_per_unit;
-    context.emit(frame);
-}
-
 const char* unitName(double mm_per_unit) { return mm_per_unit == 1.0 ? "mm" : "inch"; }
 
 /// Four numbers separated by blanks, one row of `$$*CATIA0`.
@@ -56,22 +54,47 @@ bool takeRow(std::string_view text, double* row) {
 }
 
 void cutShort(ReaderContext& context) {
-    context.report.error("cl.frame", "$$*CATIA0 is not followed by a name and the three rows of its matrix",
+    context.report.error("cl.frame",
+                         fmt::format("$${} is not followed by {}the three rows of its matrix", context.frame_rows.mark,
+                                     context.frame_rows.mark == catia_frame ? "a name and " : ""),
                          {context.file_name, context.frame_rows.line, 0, {}});
     context.frame_rows = FrameRows{};
 }
 
-void completeFrame(ReaderContext& context) {
-    const std::array<double, 12>& v = context.frame_rows.values;
+geometry::RigidTransform transformOf(const geometry::Matrix3& rotation, const geometry::Vector3& origin_mm) {
+    geometry::RigidTransform transform = geometry::RigidTransform::Identity();
+    transform.linear() = rotation;
+    transform.translation() = origin_mm;
+    return transform;
+}
+
+/// The rotation in three rows of `R | t`, if it is one.
+std::optional<geometry::Matrix3> rotationOf(const std::array<double, 12>& v) {
     const geometry::Vector3 z(v[2], v[6], v[10]);
-    const std::optional<geometry::Matrix3> rotation =
+    std::optional<geometry::Matrix3> rotation =
         frameFromAxes(geometry::Vector3(v[0], v[4], v[8]), geometry::Vector3(v[1], v[5], v[9]));
-    if (!rotation || !((rotation->col(2) - z).norm() <= orthonormal_tolerance)) {
-        context.report.error("cl.frame", "$$*CATIA0: the matrix is not a rotation with an origin",
-                             {context.file_name, context.frame_rows.line, 0, {}});
+    if (rotation && !((rotation->col(2) - z).norm() <= orthonormal_tolerance)) {
+        rotation.reset();
+    }
+    return rotation;
+}
+
+void completeFrame(ReaderContext& context) {
+    const FrameRows rows = std::exchange(context.frame_rows, FrameRows{});
+    const std::array<double, 12>& v = rows.values;
+    const std::optional<geometry::Matrix3> rotation = rotationOf(v);
+    if (!rotation) {
+        context.report.error("cl.frame", fmt::format("$${}: the matrix is not a rotation with an origin", rows.mark),
+                             {context.file_name, rows.line, 0, {}});
         return;
     }
-    emitFrame(context, *rotation, geometry::Vector3(v[3], v[7], v[11]));
+    const geometry::RigidTransform transform =
+        transformOf(*rotation, geometry::Vector3(v[3], v[7], v[11]) * context.mm_per_unit);
+    if (rows.is_plane) {
+        context.emit(WorkPlane{transform});
+    } else {
+        context.emit(ProgrammingFrame{transform});
+    }
 }
 
 }  // namespace
@@ -113,7 +136,7 @@ void handleMsys(ReaderContext& context, std::string_view word, std::string_view 
         context.error("cl.frame", fmt::format("{}: the X and Y directions are not perpendicular unit vectors", word));
         return;
     }
-    emitFrame(context, *rotation, geometry::Vector3(v[0], v[1], v[2]));
+    context.emit(ProgrammingFrame{transformOf(*rotation, geometry::Vector3(v[0], v[1], v[2]) * context.mm_per_unit)});
 }
 
 void handleCsys(ReaderContext& context, std::string_view word, std::string_view body) {
@@ -127,17 +150,13 @@ void handleCsys(ReaderContext& context, std::string_view word, std::string_view 
     if (!takeNumbers(context, word, fields, 0, v.size(), v.data())) {
         return;
     }
-    const std::optional<geometry::Matrix3> rotation =
-        frameFromAxes(geometry::Vector3(v[0], v[4], v[8]), geometry::Vector3(v[1], v[5], v[9]));
-    if (!rotation || !((rotation->col(2) - geometry::Vector3(v[2], v[6], v[10])).norm() <= orthonormal_tolerance)) {
+    const std::optional<geometry::Matrix3> rotation = rotationOf(v);
+    if (!rotation) {
         context.error("cl.frame", fmt::format("{}: the matrix is not a rotation with an origin", word));
         return;
     }
     // The points stay in the world frame (TRNTYP/WORLD); Z is the tool axis of the 3+2 plane.
-    WorkPlane plane;
-    plane.programming_from_plane.linear() = *rotation;
-    plane.programming_from_plane.translation() = geometry::Vector3(v[3], v[7], v[11]) * context.mm_per_unit;
-    context.emit(plane);
+    context.emit(WorkPlane{transformOf(*rotation, geometry::Vector3(v[3], v[7], v[11]) * context.mm_per_unit)});
     context.declared_axis = rotation->col(2);
     context.axis = context.declared_axis;
 }
@@ -149,26 +168,29 @@ void handleTrntyp(ReaderContext& context, std::string_view word, std::string_vie
 }
 
 void handleComment(ReaderContext& context, std::string_view comment) {
-    constexpr std::string_view frame_mark = "*CATIA0";
-    constexpr std::string_view operation_mark = "OPERATION NAME :";
+    constexpr std::string_view catia_operation = "OPERATION NAME :";
+    constexpr std::string_view own_operation = "CUSP OPERATION";
+    constexpr int rows = 3;
     const std::string_view text = trimmed(comment);
-    if (startsWithWord(text, frame_mark)) {
+    const bool catia = context.dialect->comments_carry_records;
+    if (catia && startsWithWord(text, catia_frame)) {
         finishFrame(context);
-        context.frame_rows = FrameRows{4, context.line, {}};
-        return;
-    }
-    if (int& expected = context.frame_rows.expected; expected > 0) {
-        constexpr int rows = 3;
+        context.frame_rows = FrameRows{catia_frame, false, rows + 1, context.line, {}};
+    } else if (equalsWord(text, trimmed(own_frame)) || equalsWord(text, trimmed(own_plane))) {
+        finishFrame(context);
+        const bool is_plane = equalsWord(text, trimmed(own_plane));
+        context.frame_rows = FrameRows{is_plane ? own_plane : own_frame, is_plane, rows, context.line, {}};
+    } else if (int& expected = context.frame_rows.expected; expected > 0) {
         const auto row = static_cast<std::size_t>(rows - expected);
         if (expected <= rows && !takeRow(text, &context.frame_rows.values[row * 4])) {
             cutShort(context);
         } else if (--expected == 0) {
             completeFrame(context);
         }
-        return;
-    }
-    if (startsWithWord(text, operation_mark)) {
-        context.emit(OperationStart{std::string(trimmed(text.substr(operation_mark.size())))});
+    } else if (catia && startsWithWord(text, catia_operation)) {
+        context.emit(OperationStart{std::string(trimmed(text.substr(catia_operation.size())))});
+    } else if (startsWithWord(text, own_operation)) {
+        context.emit(OperationStart{std::string(trimmed(text.substr(own_operation.size())))});
     }
 }
 

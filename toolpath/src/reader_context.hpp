@@ -36,7 +36,9 @@ enum class UnitSource : std::uint8_t { Unknown, Stated, Option, Implied };
 
 /// The rows of a frame that the dialect writes as comments, while they are being collected.
 struct FrameRows {
-    int expected = 0;  ///< lines still to come; the first is a name
+    std::string_view mark;  ///< the comment that announced them
+    bool is_plane = false;  ///< of a WorkPlane, not of a ProgrammingFrame
+    int expected = 0;       ///< lines still to come; more than 3 when a name is the first
     std::uint32_t line = 0;
     std::array<double, 12> values{};
 };

@@ -77,7 +77,7 @@ void handleUnits(ReaderContext& context, std::string_view word, std::string_view
 void handleMsys(ReaderContext& context, std::string_view word, std::string_view body);
 void handleCsys(ReaderContext& context, std::string_view word, std::string_view body);
 void handleTrntyp(ReaderContext& context, std::string_view word, std::string_view body);
-/// Comments of dialects whose comments carry records.
+/// Comments that carry records: CATIA's in its dialect, and those that cusp's writer makes.
 void handleComment(ReaderContext& context, std::string_view comment);
 /// To be called when anything but a comment follows: a frame that is cut short is reported.
 void finishFrame(ReaderContext& context);

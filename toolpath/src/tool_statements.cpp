@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // CUTTER, TLDATA, TOOL PATH, TOOLNO, TPRINT, LOADTL, LOAD/TOOL: which tool, and its shape.
 #include "statement_table.hpp"
+#include "tool_shape.hpp"
 
 #include <cusp/base/units.hpp>
 
@@ -10,31 +11,8 @@
 namespace cusp::toolpath::detail {
 namespace {
 
-constexpr double right_angle_deg = 90.0;
-
 void refuseTurning(ReaderContext& context, std::string_view statement) {
     context.stop("cl.turning", fmt::format("this is a turning program ({}); cusp mills", statement));
-}
-
-/// The corner circle that touches the tip's cone (angle a from the horizontal) and the flank (angle b from the axis),
-/// where both would meet at d/2: at distance r from both lines.
-void placeCornerCircle(geometry::Cutter& cutter) {
-    const double a = cutter.point_angle_rad;
-    const double b = cutter.taper_angle_rad;
-    const double r = cutter.corner_radius_mm;
-    const double edge_radius = cutter.diameter_mm / 2.0;
-    const double edge_height = edge_radius * std::tan(a);
-    // −e·sin a + f·cos a = r  and  −(e − R)·cos b + (f − h)·sin b = r
-    const double determinant = std::cos(a) * std::cos(b) - std::sin(a) * std::sin(b);
-    const double right = r - edge_radius * std::cos(b) + edge_height * std::sin(b);
-    cutter.corner_e_mm = (r * std::sin(b) - right * std::cos(a)) / determinant;
-    cutter.corner_f_mm = (r * std::cos(b) - right * std::sin(a)) / determinant;
-}
-
-bool isPossible(const geometry::Cutter& cutter) {
-    const double limit = base::radFromDeg(right_angle_deg);
-    return cutter.diameter_mm > 0.0 && cutter.corner_radius_mm >= 0.0 && cutter.cutting_height_mm >= 0.0 &&
-           std::abs(cutter.point_angle_rad) < limit && std::abs(cutter.taper_angle_rad) < limit;
 }
 
 void takeCutter(ReaderContext& context, std::string_view word, std::string_view body, const geometry::Cutter& cutter) {
@@ -99,15 +77,9 @@ void handleTldata(ReaderContext& context, std::string_view word, std::string_vie
     if (!takeNumbers(context, word, fields, 1, mill_values, values.data())) {
         return;
     }
-    geometry::Cutter cutter;
-    cutter.diameter_mm = values[0] * context.mm_per_unit;
-    cutter.corner_radius_mm = values[1] * context.mm_per_unit;
-    cutter.cutting_height_mm = values[2] * context.mm_per_unit;
-    cutter.taper_angle_rad = base::radFromDeg(values[3]);
-    cutter.point_angle_rad = base::radFromDeg(values[4]);
-    if (isPossible(cutter)) {
-        placeCornerCircle(cutter);
-    }
+    const double unit = context.mm_per_unit;
+    const geometry::Cutter cutter = millShape(values[0] * unit, values[1] * unit, values[2] * unit,
+                                              base::radFromDeg(values[3]), base::radFromDeg(values[4]));
     takeCutter(context, word, body, cutter);
     context.tool.fresh = false;  // TOOL PATH owes the call, not TLDATA
 }
