@@ -15,7 +15,8 @@ namespace cusp::post::verify {
 
 struct ExpectedProcess {
     std::optional<toolpath::FeedRate> feed;
-    toolpath::SpindleCommand::Turn turn = toolpath::SpindleCommand::Turn::Off;
+    /// Absent until the CL file speaks of the spindle: then the speed is the programmer's choice.
+    std::optional<toolpath::SpindleCommand::Turn> turn;
     std::optional<double> rpm;  ///< absent when the CL file gives none, or a cutting speed
     std::optional<toolpath::CoolantCommand::Kind> coolant;
     std::optional<std::int64_t> tool_number;

@@ -72,7 +72,8 @@ SpindleTurn toReader(SpindleCommand::Turn turn) {
 }
 
 std::string turnProblem(const ModalSnapshot& state, const ExpectedProcess& expected) {
-    const SpindleTurn wanted = toReader(expected.turn);
+    if (!expected.turn) return {};
+    const SpindleTurn wanted = toReader(*expected.turn);
     if (state.spindle == wanted) return {};
     return fmt::format("the spindle is {} in a feed move, the CL file has it {}", turnName(state.spindle),
                        turnName(wanted));
@@ -147,7 +148,8 @@ void checkProcess(const reader::ExecutedMotion& motion, const ExpectedProcess& e
         findings.state(severity, code, motion.place, text, cl_line);
     };
     report(Severity::Error, "verify.feed", feedProblem(motion, expected, limits.feed_tolerance));
-    const bool nobody_turns = state.spindle == SpindleTurn::Off && expected.turn == SpindleCommand::Turn::Off;
+    const bool nobody_turns = state.spindle == SpindleTurn::Off &&
+                              expected.turn.value_or(SpindleCommand::Turn::Off) == SpindleCommand::Turn::Off;
     report(Severity::Warning, "verify.spindle-off",
            nobody_turns ? "the spindle is off in a feed move, as in the CL file" : std::string());
     report(Severity::Error, "verify.spindle-direction", turnProblem(state, expected));
