@@ -33,6 +33,10 @@ Plane planeOf(std::string_view code) {
 
 std::array<double, 3> toArray(const Vector3& v) { return {v.x, v.y, v.z}; }
 
+Vector3 unitVector(std::size_t axis) {
+    return axis == 0 ? Vector3{1, 0, 0} : axis == 1 ? Vector3{0, 1, 0} : Vector3{0, 0, 1};
+}
+
 struct Point2 {
     double first = 0.0;
     double second = 0.0;
@@ -90,8 +94,9 @@ std::optional<Arc> makeArc(const BlockContent& content, const ArcRequest& reques
                    : centerFromRadius(start, end, *content.radius * request.mm_per_unit, request.clockwise, problem);
     if (!center) return std::nullopt;
     Arc arc;
-    arc.first_axis = plane.first;
-    arc.second_axis = plane.second;
+    arc.first = unitVector(plane.first);
+    arc.second = unitVector(plane.second);
+    arc.normal = unitVector(normal);
     arc.start_radius_mm = distance(*center, start);
     arc.end_radius_mm = distance(*center, end);
     arc.height_mm = to[normal] - from[normal];

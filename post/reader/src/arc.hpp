@@ -21,7 +21,7 @@ struct ArcRequest {
     double mm_per_unit = 1.0;
 };
 
-/// Nothing, with the reason in `problem`, when no arc fits.
+/// In the coordinates of the program. Nothing, with the reason in `problem`, when no arc fits.
 [[nodiscard]] std::optional<Arc> makeArc(const BlockContent& content, const ArcRequest& request, std::string& problem);
 
 }  // namespace cusp::post::reader

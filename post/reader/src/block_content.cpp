@@ -32,6 +32,14 @@ std::optional<int> extensionOf(std::string_view name) {
     return number;
 }
 
+std::optional<FrameCommand> frameCommand(std::string_view name) {
+    if (name == "TRANS") return FrameCommand::Trans;
+    if (name == "ATRANS") return FrameCommand::ATrans;
+    if (name == "ROT") return FrameCommand::Rot;
+    if (name == "AROT") return FrameCommand::ARot;
+    return std::nullopt;
+}
+
 }  // namespace
 
 void ContentReader::error(std::string_view code, std::string message, std::size_t column) {
@@ -110,6 +118,15 @@ void ContentReader::keyword(const Word& word) {
         return;
     }
     if (word.name == "STOPRE") return;
+    if (const auto command = frameCommand(word.name)) {
+        if (out_.frame) return repeated(word);
+        out_.frame = command;
+        return;
+    }
+    if (word.name == "MCALL") {
+        out_.modal_call = true;
+        return;
+    }
     if (word.name == "TRAOOF")
         return error("nc.misspelled", "TRAOOF is a misspelling of TRAFOOF: the transformation would stay active",
                      word.column);
@@ -128,7 +145,8 @@ void ContentReader::call(const Word& word) {
         return;
     }
     if (word.name == "CYCLE832") return highSpeed(word);
-    if (word.name == "CYCLE800" && empty) return;
+    if (word.name == "CYCLE800") return swivel(word);
+    if (isDrillingCycle(word.name)) return drillingCycle(word);
     if (word.name == "SETMS" || word.name == "TRAORI") {
         const auto argument = empty ? std::optional<double>(1.0) : number(word);
         if (argument && *argument != 1.0)
@@ -262,6 +280,8 @@ bool ContentReader::namedValue(const Word& word) {
         setNumber(out_.radius, word);
     else if (word.name == "TURN")
         setNumber(out_.turns, word);
+    else if (word.name == "RPL")
+        setNumber(out_.plane_angle_deg, word);
     else if (word.name == "CTOL" || word.name == "OTOL" || word.name == "ADIS" || word.name == "ADISPOS")
         static_cast<void>(number(word));  // tolerances of smoothing: the programmed geometry stays
     else if (variables_.isDeclared(word.name)) {

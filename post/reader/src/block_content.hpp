@@ -4,6 +4,7 @@
 #pragma once
 
 #include "block.hpp"
+#include "drilling_cycle.hpp"
 #include "expression.hpp"
 #include "word_tables.hpp"
 
@@ -25,6 +26,23 @@ struct AxisTarget {
     double value = 0.0;
 };
 
+enum class FrameCommand { Trans, ATrans, Rot, ARot };
+
+/// CYCLE800: the swivelled plane as its arguments say it, or none.
+struct Swivel {
+    bool clear = false;                         ///< CYCLE800(): no plane
+    bool additive = false;                      ///< on top of the plane before (_ST)
+    bool moves = false;                         ///< the cycle moves the rotary axes (_DIR)
+    std::array<std::size_t, 3> order{0, 1, 2};  ///< axes of the first, second and third turn (_MODE)
+    std::array<double, 3> before{};             ///< reference point before the turns
+    std::array<double, 3> angles_deg{};
+    std::array<double, 3> after{};  ///< zero point after the turns
+};
+
+struct CycleCall {
+    std::vector<CycleStep> steps;
+};
+
 struct BlockContent {
     std::array<std::optional<AxisTarget>, 3> linear;
     std::array<std::optional<AxisTarget>, max_rotary_axes> rotary;
@@ -42,6 +60,11 @@ struct BlockContent {
     std::optional<std::string> message;
     std::optional<std::vector<std::string>> high_speed;
     bool dwell = false;  ///< G4
+    std::optional<FrameCommand> frame;
+    std::optional<double> plane_angle_deg;  ///< RPL
+    std::optional<Swivel> swivel;
+    std::optional<CycleCall> cycle;
+    bool modal_call = false;  ///< MCALL
 
     [[nodiscard]] bool movesLinear() const { return linear[0] || linear[1] || linear[2]; }
     [[nodiscard]] bool movesRotary() const { return rotary[0] || rotary[1] || rotary[2]; }
@@ -74,6 +97,9 @@ private:
     [[nodiscard]] bool namedValue(const Word& word);
     void toolValue(const Word& word);
     void highSpeed(const Word& word);
+    void swivel(const Word& word);
+    void drillingCycle(const Word& word);
+    [[nodiscard]] std::optional<CycleArguments> arguments(const Word& word);
     void addCode(const GroupCode& code, std::size_t column);
     [[nodiscard]] std::optional<double> number(const Word& word);
     void setNumber(std::optional<double>& slot, const Word& word);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "block_content.hpp"
+#include "frame.hpp"
 
 #include <cusp/post/reader/executed_program.hpp>
 
@@ -39,6 +40,18 @@ private:
     [[nodiscard]] std::optional<double> reach(const AxisTarget& target, const std::optional<double>& now, double scale,
                                               std::string_view axis, bool endless);
     [[nodiscard]] bool applyVector(const BlockContent& content);
+    [[nodiscard]] bool isIncremental(const AxisTarget& target) const;
+    void placePath(ExecutedMotion& motion) const;
+    void hand(ExecutedMotion& motion, const ModalSnapshot& state);
+    void programFrame(const BlockContent& content);
+    void changeFrames(const Frame& swivel, const Frame& programmed);
+    void swivel(const Swivel& swivel);
+    void warnOfTurnedFrame(const ExecutedMotion& motion);
+    void runCycle(const CycleCall& cycle);
+    void runCycleStep(const CycleStep& step, std::size_t axis, ModalSnapshot& state);
+    [[nodiscard]] Frame frame() const { return swivel_frame_ * programmed_frame_; }
+    /// Where programmed coordinates, all known, lie in the frame of the work offset.
+    [[nodiscard]] Vector3 basePoint(const AxisPositions& position) const;
     [[nodiscard]] bool addArc(const BlockContent& content, ExecutedMotion& motion);
     void requireRotary();
     [[nodiscard]] std::optional<ToolPose> pose(const AxisPositions& position) const;
@@ -63,6 +76,12 @@ private:
     AxisPositions position_;
     std::optional<Vector3> tool_axis_;  ///< known from rotary values or as programmed
     std::string preselected_tool_;
+    Frame swivel_frame_;      ///< CYCLE800
+    Frame programmed_frame_;  ///< TRANS, ROT and what adds to them
+    bool swivelled_ = false;  ///< CYCLE800 has set the tool along its plane's normal, and no rotary axis moved since
+    std::array<bool, 3> frame_changed_{};  ///< not programmed since
+    std::optional<CycleCall> modal_cycle_;
+    bool turned_frame_reported_ = false;
     bool transformation_ = false;
     bool feed_missing_reported_ = false;
     bool rotary_missing_reported_ = false;

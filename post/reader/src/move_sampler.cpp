@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// Lines, arcs, linear rotary motion and great circles.
+// Lines, arcs, machine axes, linear rotary motion and great circles.
 #include <cusp/post/reader/move_sampler.hpp>
 
 #include <algorithm>
@@ -9,16 +9,11 @@ namespace cusp::post::reader {
 
 namespace {
 
-double& component(Vector3& v, std::size_t index) { return index == 0 ? v.x : index == 1 ? v.y : v.z; }
-
-Vector3 tipOnArc(const Arc& arc, double fraction) {
+Vector3 onArc(const Arc& arc, double fraction) {
     const double angle = arc.start_angle_rad + fraction * arc.sweep_rad;
     const double radius = arc.start_radius_mm + fraction * (arc.end_radius_mm - arc.start_radius_mm);
-    Vector3 tip = arc.center_mm;
-    component(tip, arc.first_axis) += radius * std::cos(angle);
-    component(tip, arc.second_axis) += radius * std::sin(angle);
-    component(tip, 3 - arc.first_axis - arc.second_axis) += fraction * arc.height_mm;
-    return tip;
+    return arc.center_mm + (radius * std::cos(angle)) * arc.first + (radius * std::sin(angle)) * arc.second +
+           (fraction * arc.height_mm) * arc.normal;
 }
 
 bool rotaryKnown(const ExecutedMotion& motion, std::size_t count) {
@@ -33,8 +28,9 @@ ToolPose poseAt(const ExecutedMotion& motion, const ForwardChain& chain, double 
     const ToolPose& start = *motion.start_pose;
     const ToolPose& end = *motion.end_pose;
     ToolPose pose;
-    pose.tip_mm =
-        motion.arc ? tipOnArc(*motion.arc, fraction) : (1.0 - fraction) * start.tip_mm + fraction * end.tip_mm;
+    const Vector3 on_path = motion.arc ? onArc(*motion.arc, fraction)
+                                       : (1.0 - fraction) * motion.path_start_mm + fraction * motion.path_end_mm;
+    pose.tip_mm = on_path;
     const std::size_t count = chain.rotaryCount();
     if (motion.orientation_path == OrientationPath::GreatCircle || !rotaryKnown(motion, count)) {
         pose.axis = onGreatCircle(start.axis, end.axis, fraction);
@@ -44,6 +40,7 @@ ToolPose poseAt(const ExecutedMotion& motion, const ForwardChain& chain, double 
     for (std::size_t i = 0; i < count; ++i)
         values[i] = (1.0 - fraction) * *motion.start.rotary_rad[i] + fraction * *motion.end.rotary_rad[i];
     pose.axis = chain.toolAxis(values);
+    if (motion.joint_linear) pose.tip_mm = chain.tip(on_path, values);
     return pose;
 }
 

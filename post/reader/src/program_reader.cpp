@@ -132,7 +132,7 @@ private:
 
 ReadSummary readProgram(std::istream& in, const std::string& file_name, const MachineFile& machine,
                         const ReaderOptions& options, ProgramSink& sink, base::Diagnostics& report) {
-    const ForwardChain chain(machine.machine);
+    const ForwardChain chain(machine.machine, options.setup);
     if (chain.rotaryCount() > max_rotary_axes) {
         report.error("nc.machine", fmt::format("the machine has more than {} rotary axes", max_rotary_axes),
                      {file_name, 0, 0, {}});

@@ -44,7 +44,8 @@ constexpr std::string_view flow_statements[] = {"GOTO",    "GOTOF",  "GOTOB", "G
                                                 "ELSE",    "ENDIF",  "WHILE", "ENDWHILE", "FOR",   "ENDFOR", "LOOP",
                                                 "ENDLOOP", "REPEAT", "UNTIL", "PROC",     "RET"};
 /// Words with a meaning of their own in `block_content.cpp`.
-constexpr std::string_view other_words[] = {"TRAORI", "TRAFOOF", "TRAOOF", "STOPRE", "MSG", "SETMS"};
+constexpr std::string_view other_words[] = {"TRAORI", "TRAFOOF", "TRAOOF", "STOPRE", "MSG",  "SETMS",
+                                            "TRANS",  "ATRANS",  "ROT",    "AROT",   "MCALL"};
 
 constexpr Refused statements[] = {
     {"REPEATB", "a repetition of blocks"},
@@ -53,7 +54,6 @@ constexpr Refused statements[] = {
     {"PCALL", a_subprogram},
     {"EXTCALL", a_subprogram},
     {"ISOCALL", a_subprogram},
-    {"MCALL", "a modal subprogram call"},
     {"WHEN", a_synchronized_action},
     {"WHENEVER", a_synchronized_action},
     {"EVERY", a_synchronized_action},
@@ -62,10 +62,6 @@ constexpr Refused statements[] = {
     {"REDEF", "a redefinition"},
     {"DEFINE", "a macro"},
     {"SET", "a macro"},
-    {"TRANS", a_frame},
-    {"ATRANS", a_frame},
-    {"ROT", a_frame},
-    {"AROT", a_frame},
     {"ROTS", a_frame},
     {"AROTS", a_frame},
     {"CROTS", a_frame},
@@ -115,7 +111,6 @@ constexpr Refused refused_words[] = {
     {"SPCON", "position control of the spindle"},
     {"MEAS", "measuring"},
     {"MEAW", "measuring"},
-    {"CYCLE800", "a swivelled plane"},
 };
 
 constexpr Refused refused_addresses[] = {

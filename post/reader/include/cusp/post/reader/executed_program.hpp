@@ -49,7 +49,7 @@ struct ModalSnapshot {
 /// Values the program has determined; an absent one is known to the control only.
 struct AxisPositions {
     std::array<std::optional<double>, 3>
-        linear_mm;  ///< X, Y, Z as programmed: tip under TRAORI; machine axes under SUPA
+        linear_mm;  ///< X, Y, Z as programmed, in the active frame: tip under TRAORI; machine axes under SUPA
     std::array<std::optional<double>, max_rotary_axes> rotary_rad;  ///< chain order
 };
 
@@ -62,9 +62,11 @@ struct ToolPose {
 /// A circular or helical tip path. The radius runs linearly from `start_radius_mm` to `end_radius_mm`, which differ only
 /// by what the control tolerates (MD21000).
 struct Arc {
-    Vector3 center_mm;           ///< at the height of the start point
-    std::size_t first_axis = 0;  ///< axes of the plane: first × second = normal (G17: X, Y; G18: Z, X; G19: Y, Z)
-    std::size_t second_axis = 1;
+    Vector3 center_mm;  ///< at the height of the start point
+    /// Unit vectors of the plane, first × second = normal (G17: X, Y; G18: Z, X; G19: Y, Z of the frame that is active).
+    Vector3 first{1.0, 0.0, 0.0};
+    Vector3 second{0.0, 1.0, 0.0};
+    Vector3 normal{0.0, 0.0, 1.0};
     double start_angle_rad = 0.0;
     double sweep_rad = 0.0;  ///< counter-clockwise positive, full turns included
     double start_radius_mm = 0.0;
@@ -85,6 +87,12 @@ struct ExecutedMotion {
     /// rotary axes off zero without TRAORI.
     std::optional<ToolPose> start_pose;
     std::optional<ToolPose> end_pose;
+    /// The ends of the programmed path in the frame of the work offset, where the poses are known: the tips, or, without
+    /// TRAORI and with rotary axes away from zero, what the linear axes run between (`joint_linear`).
+    Vector3 path_start_mm;
+    Vector3 path_end_mm;
+    bool joint_linear = false;
+    bool in_cycle = false;  ///< made by a drilling cycle
     std::optional<Arc> arc;
     /// Valid during the call only.
     const ModalSnapshot* state = nullptr;

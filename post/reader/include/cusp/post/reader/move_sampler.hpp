@@ -8,7 +8,8 @@
 
 namespace cusp::post::reader {
 
-/// Pose at `fraction` in [0, 1] of a motion whose two poses are known: the tip on its line or arc; the tool axis as
+/// Pose at `fraction` in [0, 1] of a motion whose two poses are known: the tip on its line or arc, or where
+/// linear and rotary axes running together take it (`joint_linear`); the tool axis as
 /// `orientation_path` says, or on the great circle when rotary values are not known.
 [[nodiscard]] ToolPose poseAt(const ExecutedMotion& motion, const ForwardChain& chain, double fraction);
 

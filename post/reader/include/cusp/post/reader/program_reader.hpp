@@ -16,6 +16,8 @@ namespace cusp::post::reader {
 struct ReaderOptions {
     /// M and H functions whose meaning belongs to the machine builder are errors instead of warnings.
     bool strict = false;
+    /// With it, poses are known where rotary axes are away from zero without TRAORI.
+    MachineSetup setup;
     /// Blocks longer than the control takes (512 characters) are errors, but a line longer than this ends the read: a
     /// binary file must not be taken for one huge block.
     std::size_t max_line_bytes = 64 * 1024;
