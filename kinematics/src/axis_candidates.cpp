@@ -3,7 +3,8 @@
 // The planner's two ends: which positions a point can have, and what is handed out and reported of the one chosen.
 #include <cusp/kinematics/axis_planner.hpp>
 
-#include <cusp/base/units.hpp>
+#include "degree_text.hpp"
+
 #include <cusp/kinematics/angles.hpp>
 
 #include <algorithm>
@@ -14,8 +15,6 @@
 namespace cusp::kinematics {
 namespace {
 
-using base::degFromRad;
-
 // The first rotary angle of a path that begins at the pole, until its first point off the pole decides it.
 constexpr double free_angle = std::numeric_limits<double>::quiet_NaN();
 
@@ -24,14 +23,6 @@ double nearestWinding(const AxisRange& range, double angle_rad) {
     if (range.endless) return angle_rad;
     const double middle = 0.5 * (range.min + range.max);
     return middle + wrapAngle(angle_rad - middle);
-}
-
-/// A degree value as a machinist writes it: at most three decimals, no trailing zeros.
-std::string degreeText(double angle_rad) {
-    std::string text = fmt::format("{:.3f}", degFromRad(angle_rad));
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text == "-0" ? "0" : text;
 }
 
 }  // namespace
@@ -81,7 +72,8 @@ void AxisPlanner::gatherCandidates(const Layer& layer) {
         else
             for (std::size_t i = 0; i < 2; ++i) addWindings(i, layer.solved.branch[b][i]);
         for (const double first : positions_[0])
-            for (const double second : positions_[1]) candidates_.push_back({first, second});
+            for (const double second : positions_[1])
+                candidates_.push_back({{first, second}, static_cast<std::uint8_t>(b)});
     }
 }
 
@@ -101,33 +93,43 @@ void AxisPlanner::gatherNearest(const Layer& layer) {
         if (excess < least - equal_rad) candidates_.clear();
         least = std::min(least, excess);
         if (!layer.solved.pole) {
-            candidates_.push_back(nearest);
+            candidates_.push_back({nearest, static_cast<std::uint8_t>(b)});
             continue;
         }
         gatherAtPole(layer);
-        for (const double first : positions_[0]) candidates_.push_back({first, nearest[1]});
+        for (const double first : positions_[0])
+            candidates_.push_back({{first, nearest[1]}, static_cast<std::uint8_t>(b)});
     }
 }
 
-void AxisPlanner::handOut(const Layer& layer, const RotaryValues& chosen) {
-    double shortest_rad = not_known;
-    PlannedAxes out{.rotary_rad = chosen,
+void AxisPlanner::handOut(const Layer& layer, const State& chosen) {
+    const Way way =
+        last_ ? wayOf(layer, {.rotary_rad = *last_, .branch = last_branch_}, {chosen.rotary_rad, chosen.branch})
+              : Way::Followed;
+    PlannedAxes out{.rotary_rad = chosen.rotary_rad,
                     .line = layer.line,
                     .pole = layer.solved.pole,
                     .within_limits = layer.within_limits,
                     .reached = layer.solved.miss_rad <= options_.axis_tolerance_rad,
-                    .rewind = last_ && isRewind(layer, *last_, chosen, shortest_rad)};
+                    .rewind = way == Way::Rewind,
+                    .in_pole_cone = way == Way::ThroughCone};
     for (std::size_t i = 0; i < machine_.rotaryCount() && last_; ++i) {
-        if (machine_.rotaryRange(i).endless) out.rotary_rad[i] = (*last_)[i] + wrapAngle(chosen[i] - (*last_)[i]);
+        if (machine_.rotaryRange(i).endless) {
+            const bool followed = layer.cutting && !layer.branches_meet && way == Way::Followed;
+            const double near = (*last_)[i] + (followed ? layer.follow[chosen.branch][i] : 0.0);
+            out.rotary_rad[i] = near + wrapAngle(chosen.rotary_rad[i] - near);
+        }
         summary_.travel_rad[i] += std::abs(out.rotary_rad[i] - (*last_)[i]);
     }
-    reportProblems(layer, last_.value_or(chosen), out);
+    reportProblems(layer, last_.value_or(chosen.rotary_rad), out);
     ++summary_.points;
     summary_.pole_points += out.pole ? 1 : 0;
     summary_.limit_violations += out.within_limits ? 0 : 1;
     summary_.unreached += out.reached ? 0 : 1;
     summary_.rewinds += out.rewind ? 1 : 0;
+    summary_.pole_cone_moves += out.in_pole_cone ? 1 : 0;
     last_ = out.rotary_rad;
+    last_branch_ = chosen.branch;
     ready_.push_back(out);
 }
 
@@ -154,15 +156,17 @@ void AxisPlanner::reportProblems(const Layer& layer, const RotaryValues& before,
                                   degreeText(out.rotary_rad[i] < range.min ? range.min : range.max)),
                       where);
     }
-    for (std::size_t i = 0; i < machine_.rotaryCount() && out.rewind; ++i) {
-        const double step = out.rotary_rad[i] - before[i];
-        if (std::abs(step) < options_.rewind_threshold_rad) continue;
-        report_.warning("kinematics.rewind",
-                        fmt::format("{} axis turns from {}° to {}° ({}°) at CL line {} while cutting",
-                                    machine_.rotaryNames()[i], degreeText(before[i]), degreeText(out.rotary_rad[i]),
-                                    degreeText(std::abs(step)), layer.line),
-                        where);
+    if (!out.rewind) return;
+    std::string turns;
+    for (std::size_t i = 0; i < machine_.rotaryCount(); ++i) {
+        const double step = std::abs(out.rotary_rad[i] - before[i]);
+        constexpr double worth_saying_rad = 1e-3;
+        if (step < worth_saying_rad) continue;
+        turns += fmt::format("{}{} axis from {}° to {}° ({}°)", turns.empty() ? "" : ", ", machine_.rotaryNames()[i],
+                             degreeText(before[i]), degreeText(out.rotary_rad[i]), degreeText(step));
     }
+    report_.add({options_.rewinds_are_handled ? base::Severity::Warning : base::Severity::Error, "kinematics.rewind",
+                 fmt::format("the limits force a rewind while cutting, at CL line {}: {}", layer.line, turns), where});
 }
 
 }  // namespace cusp::kinematics

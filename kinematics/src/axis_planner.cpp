@@ -4,11 +4,12 @@
 #include <cusp/kinematics/axis_planner.hpp>
 
 #include <cusp/kinematics/angles.hpp>
+#include <cusp/kinematics/axis_following.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
+#include <numbers>
 #include <utility>
 
 namespace cusp::kinematics {
@@ -32,7 +33,11 @@ base::Diagnostics PlannerOptions::check() const {
            "lie in 0 to 0.1");
     demand(pole_tolerance_rad >= 0.0 && pole_tolerance_rad < 0.1, "pole_tolerance_rad", pole_tolerance_rad,
            "lie in 0 to 0.1");
-    demand(rewind_threshold_rad > 0.0, "rewind_threshold_rad", rewind_threshold_rad, "be above 0");
+    demand(orientation_tolerance_rad > 0.0 && orientation_tolerance_rad < 0.2, "orientation_tolerance_rad",
+           orientation_tolerance_rad, "lie in 0 to 0.2");
+    demand(pole_cone_rad >= 0.0 && pole_cone_rad < 0.2, "pole_cone_rad", pole_cone_rad, "lie in 0 to 0.2");
+    demand(pole_cone_penalty_s >= 0.0 && pole_cone_penalty_s <= 3600.0, "pole_cone_penalty_s", pole_cone_penalty_s,
+           "lie in 0 to 3600");
     demand(rewind_penalty_s >= 0.0 && rewind_penalty_s <= 3600.0, "rewind_penalty_s", rewind_penalty_s,
            "lie in 0 to 3600");
     return report;
@@ -51,46 +56,68 @@ double AxisPlanner::turned(std::size_t axis, double from, double to) const {
     return std::abs(machine_.rotaryRange(axis).endless ? wrapAngle(difference) : difference);
 }
 
-/// The largest turn of the shortest way to the layer if there were no limits.
-double AxisPlanner::shortestWay(const Layer& layer, const RotaryValues& from) const {
-    double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < layer.solved.count; ++b) {
-        const RotaryValues& branch = layer.solved.branch[b];
-        const double first = layer.solved.pole || std::isnan(from[0]) ? 0.0 : std::abs(wrapAngle(branch[0] - from[0]));
-        shortest = std::min(shortest, std::max(first, std::abs(wrapAngle(branch[1] - from[1]))));
+/// What is needed of the way from the point before to judge every pair of candidates at once.
+void AxisPlanner::follow(Layer& layer, const Vector3& axis) {
+    const double gap_rad = machine_.branchGap(axis);
+    if (solved_before_ && layer.cutting) {
+        // Refined, a change of branch at the meeting place parts from the great circle by the gap there, and by up to a
+        // third more when the parts on either side differ in length.
+        constexpr double share = 0.7;
+        const double limit_rad = share * options_.orientation_tolerance_rad;
+        const double chord = (axis - axis_before_).norm();
+        const bool free_end =
+            layer.solved.pole || solved_before_->pole || layer.solved.count < 2 || solved_before_->count < 2;
+        constexpr double arc_per_chord = std::numbers::pi / 2.0;
+        const double cone_rad = std::max(limit_rad, share * options_.pole_cone_rad);
+        layer.branches_meet = free_end;
+        if (!free_end && gap_rad + gap_before_rad_ - arc_per_chord * chord <= 2.0 * cone_rad) {
+            const double nearest_rad = nearestMeeting(machine_, axis_before_, axis).gap_rad;
+            layer.branches_meet = nearest_rad <= limit_rad;
+            layer.cone_meets = nearest_rad <= cone_rad;
+        }
+        if (!free_end)
+            for (std::size_t b = 0; b < 2; ++b) layer.follow[b] = followStep(*solved_before_, layer.solved, b);
     }
-    return shortest;
+    solved_before_ = layer.solved;
+    axis_before_ = axis;
+    gap_before_rad_ = gap_rad;
 }
 
-bool AxisPlanner::isRewind(const Layer& layer, const RotaryValues& from, const RotaryValues& to,
-                           double& shortest_rad) const {
-    const double first = std::isnan(from[0]) ? 0.0 : turned(0, from[0], to[0]);
-    const double widest = std::max(first, turned(1, from[1], to[1]));
-    if (!layer.cutting || widest < options_.rewind_threshold_rad) return false;
-    if (shortest_rad == not_known) shortest_rad = shortestWay(layer, from);
-    return widest - shortest_rad >= options_.rewind_threshold_rad;
+AxisPlanner::Way AxisPlanner::wayOf(const Layer& layer, const State& from, const Candidate& to) const {
+    if (!layer.cutting || machine_.rotaryCount() == 0) return Way::Followed;
+    // A hair beyond a limit is put on the limit, which may part the step from the one followed.
+    constexpr double same_rad = 1e-5;
+    const double first = std::isnan(from.rotary_rad[0]) ? 0.0 : turned(0, from.rotary_rad[0], to.rotary_rad[0]);
+    const double second = turned(1, from.rotary_rad[1], to.rotary_rad[1]);
+    const bool half_turn = std::max(first, second) <= std::numbers::pi + same_rad;
+    if (layer.branches_meet) return half_turn ? Way::Followed : Way::Rewind;
+    const RotaryValues& step = layer.follow[to.branch];
+    if (from.branch == to.branch && turned(0, from.rotary_rad[0] + step[0], to.rotary_rad[0]) <= same_rad &&
+        turned(1, from.rotary_rad[1] + step[1], to.rotary_rad[1]) <= same_rad)
+        return Way::Followed;
+    return layer.cone_meets && from.branch != to.branch && half_turn ? Way::ThroughCone : Way::Rewind;
 }
 
-AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const RotaryValues& from, const RotaryValues& to,
-                                        double& shortest_rad) const {
-    const bool was_free = std::isnan(from[0]);
-    const double first = was_free ? 0.0 : turned(0, from[0], to[0]);
-    const double second = turned(1, from[1], to[1]);
+AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const State& from, const Candidate& to) const {
+    const bool was_free = std::isnan(from.rotary_rad[0]);
+    const double first = was_free ? 0.0 : turned(0, from.rotary_rad[0], to.rotary_rad[0]);
+    const double second = turned(1, from.rotary_rad[1], to.rotary_rad[1]);
     double time_s = std::max(first * seconds_per_rad_[0], second * seconds_per_rad_[1]);
-    if (isRewind(layer, from, to, shortest_rad)) time_s += options_.rewind_penalty_s;
+    const Way way = wayOf(layer, from, to);
+    if (way != Way::Followed) time_s += way == Way::Rewind ? options_.rewind_penalty_s : options_.pole_cone_penalty_s;
     return {.time_ns = nano(time_s),
             .travel_nrad = nano(first + second),
-            .start_nrad = was_free && !std::isnan(to[0]) ? nano(std::abs(to[0])) : 0};
+            .start_nrad = was_free && !std::isnan(to.rotary_rad[0]) ? nano(std::abs(to.rotary_rad[0])) : 0};
 }
 
-void AxisPlanner::addState(const Layer& layer, const RotaryValues& candidate) {
-    State state{.rotary_rad = candidate, .cost = {}, .before = 0, .alive = true};
+void AxisPlanner::addState(const Layer& layer, const Candidate& candidate) {
+    State state{.rotary_rad = candidate.rotary_rad, .cost = {}, .before = 0, .alive = true, .branch = candidate.branch};
     if (layers_.empty()) {
-        double shortest_rad = not_known;
         if (last_)
-            state.cost = stepCost(layer, *last_, candidate, shortest_rad);
+            state.cost = stepCost(layer, {.rotary_rad = *last_, .branch = last_branch_}, candidate);
         else
-            for (const double angle : candidate) state.cost.start_nrad += std::isnan(angle) ? 0 : nano(std::abs(angle));
+            for (const double angle : candidate.rotary_rad)
+                state.cost.start_nrad += std::isnan(angle) ? 0 : nano(std::abs(angle));
         states_.push_back(state);
         return;
     }
@@ -100,10 +127,10 @@ void AxisPlanner::addState(const Layer& layer, const RotaryValues& candidate) {
         const State& from = states_[before.first + i];
         if (!from.alive) continue;
         // At the pole only the states with this very angle lead here: the first axis keeps still.
-        if (layer.solved.pole && from.rotary_rad[0] != candidate[0] &&
-            !(std::isnan(from.rotary_rad[0]) && std::isnan(candidate[0])))
+        if (layer.solved.pole && from.rotary_rad[0] != candidate.rotary_rad[0] &&
+            !(std::isnan(from.rotary_rad[0]) && std::isnan(candidate.rotary_rad[0])))
             continue;
-        Cost cost = stepCost(layer, from.rotary_rad, candidate, shortest_rad_[i]);
+        Cost cost = stepCost(layer, from, candidate);
         cost.time_ns += from.cost.time_ns;
         cost.travel_nrad += from.cost.travel_nrad;
         cost.start_nrad += from.cost.start_nrad;
@@ -122,13 +149,13 @@ void AxisPlanner::push(const AxisPoint& point) {
     layer.first = states_.size();
     layer.line = point.line;
     layer.cutting = point.cutting;
+    follow(layer, point.axis);
     gatherCandidates(layer);
     if (candidates_.empty()) {
         layer.within_limits = false;
         gatherNearest(layer);
     }
-    shortest_rad_.assign(layers_.empty() ? 0 : layers_.back().count, not_known);
-    for (const RotaryValues& candidate : candidates_) addState(layer, candidate);
+    for (const Candidate& candidate : candidates_) addState(layer, candidate);
     layer.count = states_.size() - layer.first;
     layers_.push_back(layer);
     if (layers_.size() >= options_.window_points) commit(layers_.size() / 2);
@@ -187,7 +214,7 @@ std::size_t AxisPlanner::settleFreeAngle(std::vector<std::uint32_t>& chosen, std
 void AxisPlanner::commit(std::size_t layer_count) {
     std::vector<std::uint32_t> chosen = traceBack();
     layer_count = settleFreeAngle(chosen, layer_count);
-    for (std::size_t l = 0; l < layer_count; ++l) handOut(layers_[l], states_[layers_[l].first + chosen[l]].rotary_rad);
+    for (std::size_t l = 0; l < layer_count; ++l) handOut(layers_[l], states_[layers_[l].first + chosen[l]]);
     dropFront(layer_count, chosen[layer_count - 1]);
 }
 

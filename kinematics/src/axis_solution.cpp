@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace cusp::kinematics {
@@ -36,6 +37,12 @@ AxisSolutions Machine::solveAxis(const Vector3& axis, double pole_tolerance_rad)
     out.count = 1;
     out.miss_rad = angleBetween(spindle_axis_, axis);
     return out;
+}
+
+double Machine::branchGap(const Vector3& axis) const {
+    if (rotaryCount() < 2) return std::numeric_limits<double>::infinity();
+    const double theta = angleBetween(rotary_direction_[0], axis);
+    return std::min(theta - theta_min_, theta_max_ - theta);
 }
 
 AxisSolutions Machine::solveOne(const Vector3& axis, double pole_tolerance_rad) const {
@@ -87,6 +94,8 @@ AxisSolutions Machine::solveTwo(const Vector3& axis, double pole_tolerance_rad) 
                               2.0 * half_sine * half_sine * std::sin(theta_2t_) * std::cos(theta_12_));
     }
     const double alpha = across > 0.0 ? std::atan2(u2, u1) : 0.0;
+    out.alpha_rad = alpha;
+    out.beta_rad = beta;
     out.branch[0] = {wrapAngle(alpha - beta), wrapAngle(phi_ + psi)};
     out.branch[1] = {wrapAngle(alpha + beta), wrapAngle(phi_ - psi)};
     // At either end of the range both branches are one.

@@ -129,7 +129,7 @@ TEST(AxisPlanner, ReportsARewindThatLimitsForce) {
     const Plan planned = plan(machine, pathThrough(machine, rotary_deg), options);
     EXPECT_EQ(planned.summary.rewinds, 1U);
     EXPECT_EQ(planned.summary.limit_violations, 0U);
-    ASSERT_EQ(planned.report.warningCount(), planned.report.size());
+    ASSERT_EQ(planned.report.errorCount(), 1U);
     EXPECT_EQ(planned.report.front().code, "kinematics.rewind");
     std::size_t at = 0;
     while (!planned.points[at].rewind) ++at;
@@ -149,7 +149,12 @@ TEST(AxisPlanner, SaysWhatARewindDoes) {
         plan(machine, pathThrough(machine, {{150.0, 30.0}, {190.0, 30.0}, {201.0, 30.0}, {250.0, 30.0}}), options);
     ASSERT_EQ(planned.report.size(), 1U);
     EXPECT_EQ(base::toText(planned.report.front()),
-              "2: warning: C axis turns from 150° to -170° (320°) at CL line 2 while cutting [kinematics.rewind]");
+              "2: error: the limits force a rewind while cutting, at CL line 2: C axis from 150° to -170° (320°) "
+              "[kinematics.rewind]");
+    options.rewinds_are_handled = true;
+    EXPECT_EQ(plan(machine, pathThrough(machine, {{150.0, 30.0}, {190.0, 30.0}, {201.0, 30.0}}), options)
+                  .report.warningCount(),
+              1U);
 }
 
 TEST(AxisPlanner, PutsAnUnavoidableRewindIntoARapidMove) {

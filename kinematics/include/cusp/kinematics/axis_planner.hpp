@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cusp/base/diagnostics.hpp>
+#include <cusp/base/units.hpp>
 #include <cusp/kinematics/machine.hpp>
 
 #include <array>
@@ -26,11 +27,19 @@ struct PlannerOptions {
     /// Within this of the first rotary axis the direction across it is the rounding of a CL file's seventh decimal
     /// (0.7e-7), so the axis counts as the pole and its angle as free.
     double pole_tolerance_rad = 1e-7;
-    /// While cutting, a step that turns an axis this much further than the shortest way is a rewind.
-    double rewind_threshold_rad = 0.5;
+    /// While cutting, a step that cannot follow the great circle between its two axes within this is a rewind. Branches
+    /// may be changed where they come as near to each other as that.
+    double orientation_tolerance_rad = base::radFromDeg(0.05);
+    /// Not 0: where the way passes the pole within this, the tool axis may leave it by as much to change the branch,
+    /// when the limits would else force a rewind.
+    double pole_cone_rad = 0.0;
+    /// What that costs besides its travel.
+    double pole_cone_penalty_s = 60.0;
     /// What a rewind costs besides its travel: as much as ten minutes of travel, so that a path avoids it while it can,
     /// and puts it into a rapid move where it must.
     double rewind_penalty_s = 600.0;
+    /// Whoever takes the positions moves the tool off the part for a rewind: it is then a warning.
+    bool rewinds_are_handled = false;
     /// Where the axes stand before the first point; travel from there counts. Without it the start is free.
     std::optional<RotaryValues> start_rad;
     /// Name of the CL file, for messages.
@@ -54,7 +63,9 @@ struct PlannedAxes {
     bool pole = false;          ///< the first rotary axis was free and keeps still
     bool within_limits = true;  ///< false: no solution lies within the limits, and this is the nearest
     bool reached = true;        ///< false: no rotary position gives the tool axis, and this is the nearest
-    bool rewind = false;        ///< the move to this point goes a long way round while cutting
+    /// The move to this point cannot follow the great circle while cutting: an axis has to unwind or the branch to change.
+    bool rewind = false;
+    bool in_pole_cone = false;  ///< the move to it leaves the great circle by up to the pole cone
 };
 
 struct PlannerSummary {
@@ -63,17 +74,20 @@ struct PlannerSummary {
     std::uint64_t limit_violations = 0;  ///< points, not axes
     std::uint64_t unreached = 0;
     std::uint64_t rewinds = 0;
+    std::uint64_t pole_cone_moves = 0;
     RotaryValues travel_rad{};  ///< in chain order
 };
 
 /// Viterbi's algorithm over the candidates of each point: every branch in every winding within the limits. A step costs
 /// the time its slowest rotary axis needs at full speed, max |Δq|/v; among equals the smaller sum of travel wins, then
-/// the start nearer to zero. At the pole the first axis keeps the angle of the point before; a path that begins at the
+/// the start nearer to zero. While cutting, a step must be one that a `PathRefiner` can hold within the orientation
+/// tolerance: on one branch by the way the great circle takes, or through a place where the branches meet, with no axis
+/// turning by more than half a turn. Any other is a rewind. At the pole the first axis keeps the angle of the point before; a path that begins at the
 /// pole begins with the angle of its first point off it. Costs are whole nanoseconds and nanoradians, so that ties are
 /// ties on every machine.
 ///
 /// Problems, with the CL line: `kinematics.axis-limit` (error, one for each point without a candidate within the
-/// limits), `kinematics.axis-unreachable` (error), `kinematics.rewind` (warning).
+/// limits), `kinematics.axis-unreachable` (error), `kinematics.rewind` (error; warning when `rewinds_are_handled`).
 class AxisPlanner {
 public:
     /// `machine` must outlive the planner. Options must pass their check.
@@ -98,12 +112,22 @@ private:
     };
     struct State {
         RotaryValues rotary_rad{};
-        Cost cost;
+        Cost cost{};
         std::uint32_t before = 0;  ///< index within the layer before
         bool alive = true;         ///< descends from what was already handed out
+        std::uint8_t branch = 0;
+    };
+    struct Candidate {
+        RotaryValues rotary_rad{};
+        std::uint8_t branch = 0;
     };
     struct Layer {
         AxisSolutions solved;
+        /// From the layer before: what each branch turns by along the great circle, and whether that circle passes where
+        /// the branches meet, so that both are one.
+        std::array<RotaryValues, 2> follow{};
+        bool branches_meet = true;
+        bool cone_meets = false;
         std::size_t first = 0;
         std::size_t count = 0;
         std::uint32_t line = 0;
@@ -115,18 +139,17 @@ private:
     void gatherNearest(const Layer& layer);
     void gatherAtPole(const Layer& layer);
     void addWindings(std::size_t axis, double angle_rad);
-    void addState(const Layer& layer, const RotaryValues& candidate);
-    [[nodiscard]] Cost stepCost(const Layer& layer, const RotaryValues& from, const RotaryValues& to,
-                                double& shortest_rad) const;
-    [[nodiscard]] bool isRewind(const Layer& layer, const RotaryValues& from, const RotaryValues& to,
-                                double& shortest_rad) const;
-    [[nodiscard]] double shortestWay(const Layer& layer, const RotaryValues& from) const;
+    void addState(const Layer& layer, const Candidate& candidate);
+    void follow(Layer& layer, const Vector3& axis);
+    [[nodiscard]] Cost stepCost(const Layer& layer, const State& from, const Candidate& to) const;
+    enum class Way : std::uint8_t { Followed, ThroughCone, Rewind };
+    [[nodiscard]] Way wayOf(const Layer& layer, const State& from, const Candidate& to) const;
     [[nodiscard]] double turned(std::size_t axis, double from, double to) const;
 
     void commit(std::size_t layer_count);
     [[nodiscard]] std::vector<std::uint32_t> traceBack() const;
     [[nodiscard]] std::size_t settleFreeAngle(std::vector<std::uint32_t>& chosen, std::size_t layer_count);
-    void handOut(const Layer& layer, const RotaryValues& chosen);
+    void handOut(const Layer& layer, const State& chosen);
     void reportProblems(const Layer& layer, const RotaryValues& before, const PlannedAxes& out);
     void dropFront(std::size_t layer_count, std::uint32_t chosen);
 
@@ -135,11 +158,14 @@ private:
     RotaryValues seconds_per_rad_{};
     std::vector<Layer> layers_;
     std::vector<State> states_;
-    std::vector<RotaryValues> candidates_;
-    static constexpr double not_known = -1.0;
-    std::vector<double> shortest_rad_;  ///< from each state of the layer before, once asked for
+    std::vector<Candidate> candidates_;
     std::array<std::vector<double>, 2> positions_;
     std::optional<RotaryValues> last_;  ///< handed out last, with endless axes unwrapped
+    std::uint8_t last_branch_ = 0;
+    // The point pushed before.
+    std::optional<AxisSolutions> solved_before_;
+    Vector3 axis_before_ = Vector3::UnitZ();
+    double gap_before_rad_ = 0.0;
     std::vector<PlannedAxes> ready_;
     std::size_t next_ready_ = 0;
     base::Diagnostics report_;

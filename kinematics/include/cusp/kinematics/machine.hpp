@@ -51,6 +51,10 @@ struct AxisSolutions {
     /// 0 when the axis is reached; else the angle by which it misses the machine's range, and the branches hold the
     /// nearest axis that is reached.
     double miss_rad = 0.0;
+    /// What the first axis' angles are made of with two rotary axes: α − β for branch 0, α + β for branch 1. Off the pole
+    /// β is continuous, in [−π, 0], and α turns by less than half a turn along any great circle shorter than that.
+    double alpha_rad = 0.0;
+    double beta_rad = 0.0;
 };
 
 /// Solutions for a whole pose.
@@ -90,6 +94,10 @@ public:
     /// Rotary positions for a unit tool axis in the workpiece frame, in closed form, limits not considered. An axis
     /// within `pole_tolerance_rad` of the first rotary axis counts as the pole, and is then missed by that much at most.
     [[nodiscard]] AxisSolutions solveAxis(const Vector3& axis, double pole_tolerance_rad = 1e-13) const;
+    /// How far `axis` is from where the two branches meet: the pole, or either end of what the rotary axes reach. Negative
+    /// beyond. Infinite on a machine without two branches.
+    [[nodiscard]] double branchGap(const Vector3& axis) const;
+    [[nodiscard]] const Vector3& rotaryDirection(std::size_t i) const { return rotary_direction_[i]; }
     /// Linear positions that bring the tip to `tip_mm` (workpiece frame) with the rotary axes where they are. Empty when
     /// a rotary axis between linear ones has turned them into one plane.
     [[nodiscard]] std::optional<Vector3> solveLinear(const Vector3& tip_mm, const RotaryValues& rotary_rad,
