@@ -12,6 +12,7 @@
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/json_report.hpp>
 #include <cusp/base/toml_node.hpp>
+#include <cusp/base/units.hpp>
 #include <cusp/base/version.hpp>
 #include <cusp/post/writer/post_options.hpp>
 #include <cusp/post/writer/program_planner.hpp>
@@ -39,6 +40,9 @@ struct Flags {
     std::optional<std::string> program_name;
     std::optional<std::string> work_offset;
     std::optional<double> spindle_rpm;
+    std::optional<double> orientation_tolerance_deg;
+    std::optional<double> pole_cone_deg;
+    std::optional<double> chord_tolerance_mm;
     bool strict = false;
     bool json = false;
     bool print_config = false;
@@ -57,6 +61,10 @@ base::Result<post::PostOptions> optionsOf(const Flags& flags) {
     if (flags.program_name) job.post.program_name = *flags.program_name;
     if (flags.work_offset) job.post.work_offset = *flags.work_offset;
     if (flags.spindle_rpm) job.post.spindle_rpm = *flags.spindle_rpm;
+    if (flags.orientation_tolerance_deg)
+        job.post.orientation_tolerance_rad = base::radFromDeg(*flags.orientation_tolerance_deg);
+    if (flags.pole_cone_deg) job.post.pole_cone_rad = base::radFromDeg(*flags.pole_cone_deg);
+    if (flags.chord_tolerance_mm) job.post.chord_tolerance_mm = *flags.chord_tolerance_mm;
     if (flags.strict) job.post.strict = true;
     base::Diagnostics report;
     post::checkOptions(job.post, report);
@@ -156,6 +164,15 @@ void addPostCommand(CLI::App& app, Action& action) {
     post->add_option("--name", flags->program_name, "Program name, at most 24 letters, digits, underscores.");
     post->add_option("--work-offset", flags->work_offset, "Work offset, e.g. G54 or G505.");
     post->add_option("--spindle-rpm", flags->spindle_rpm, "Spindle speed, clockwise, until the CL file gives one.");
+    post->add_option(
+        "--orientation-tolerance-deg", flags->orientation_tolerance_deg,
+        "While cutting, how far the tool axis may leave its way between two CL points (0.05); near the pole "
+        "blocks are inserted.");
+    post->add_option("--pole-cone-deg", flags->pole_cone_deg,
+                     "Where rotary limits force a change of branch in a cut: at most this close to the pole, with a "
+                     "warning (3); 0 refuses.");
+    post->add_option("--tolerance,--chord-tolerance-mm", flags->chord_tolerance_mm,
+                     "Distance of straight moves from the arc they stand for, in mm (0.005).");
     post->add_flag("--strict", flags->strict,
                    "Statements that are not understood, and cuts with the spindle off, are errors.");
     CLI::Option* json = post->add_flag("--json", flags->json, "One machine-readable summary on stdout.");

@@ -34,11 +34,17 @@ std::string rotaryText(const PostOutcome& outcome) {
         out +=
             fmt::format("  largest rotary step: {} by {:.3f}° at CL line {}\n", names[summary.largest_rotary_step_axis],
                         base::degFromRad(summary.largest_rotary_step_rad), summary.largest_rotary_step_cl_line);
+    if (summary.inserted_blocks > 0)
+        out +=
+            fmt::format("  {} inserted so that the tool axis stays within {:.3f}° of its way (CL line {})\n",
+                        plural(summary.inserted_blocks, "block"), base::degFromRad(summary.largest_axis_deviation_rad),
+                        summary.largest_axis_deviation_cl_line);
     return out;
 }
 
 bool isLimit(const base::Diagnostic& diagnostic) {
     return diagnostic.code == "kinematics.axis-limit" || diagnostic.code == "kinematics.axis-unreachable" ||
+           diagnostic.code == "kinematics.between-axis" || diagnostic.code == "kinematics.rewind" ||
            diagnostic.code == "post.spindle-limit";
 }
 
@@ -81,6 +87,8 @@ base::Json toJson(const PostOutcome& outcome) {
     out["operations"] = summary.operations;
     out["tool_changes"] = summary.tool_changes;
     out["blocks"] = outcome.blocks;
+    out["inserted_blocks"] = summary.inserted_blocks;
+    out["max_axis_between_deg"] = base::degFromRad(summary.largest_axis_deviation_rad);
     out["warnings"] = outcome.report.warningCount();
     out["errors"] = outcome.report.errorCount();
     out["limit_violations"] = summary.limit_violations;

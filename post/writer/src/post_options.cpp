@@ -38,6 +38,17 @@ void check(const PostOptions& options, const Where& where, base::Diagnostics& re
                      where("work_offset"));
     if (options.spindle_rpm && !(*options.spindle_rpm > 0.0 && std::isfinite(*options.spindle_rpm)))
         report.error("post.spindle-speed", "the spindle speed must be above 0 rev/min", where("spindle_rpm"));
+    const double tolerance_deg = base::degFromRad(options.orientation_tolerance_rad);
+    constexpr double rounding = 1e-9;
+    if (!(tolerance_deg >= 0.001 - rounding && tolerance_deg <= 10.0 + rounding))
+        report.error("post.orientation-tolerance", "the orientation tolerance must lie in 0.001° to 10°",
+                     where("orientation_tolerance_deg"));
+    const double cone_deg = base::degFromRad(options.pole_cone_rad);
+    if (!(cone_deg >= 0.0 && cone_deg <= 10.0 + rounding))
+        report.error("post.pole-cone", "the pole cone must lie in 0° to 10°", where("pole_cone_deg"));
+    if (!(options.chord_tolerance_mm >= 0.0001 && options.chord_tolerance_mm <= 1.0))
+        report.error("post.chord-tolerance", "the chord tolerance must lie in 0.0001 to 1 mm",
+                     where("chord_tolerance_mm"));
 }
 
 }  // namespace
@@ -50,6 +61,18 @@ const base::Section<PostOptions>& postSection() {
             .field("spindle_rpm", &PostOptions::spindle_rpm,
                    "Spindle speed, clockwise, for CL files that give none before the first cut.", base::positive())
             .field("work_offset", &PostOptions::work_offset, "Work offset, e.g. G54. Empty: the machine file's.")
+            .field("orientation_tolerance_deg", &PostOptions::orientation_tolerance_rad,
+                   "While cutting, how far the tool axis may leave the great circle between two points of the CL file; "
+                   "where the rotary axes would swing it further, blocks are inserted.",
+                   {.min = 0.001, .max = 10.0})
+            .field(
+                "pole_cone_deg", &PostOptions::pole_cone_rad,
+                "Where rotary limits force a change of branch in a cut, it is made this close to the pole at most, and "
+                "told; the tool axis leaves its way by up to as much. 0: such a path is refused.",
+                {.min = 0.0, .max = 10.0})
+            .field("chord_tolerance_mm", &PostOptions::chord_tolerance_mm,
+                   "How far the chords of arcs the control cannot drive as such may be from them.",
+                   {.min = 0.0001, .max = 1.0})
             .field("strict", &PostOptions::strict,
                    "What the reader does not know, and a cut with the spindle off, are errors instead of warnings.")
             .check([](const PostOptions& options, const base::TomlNode& table, base::Diagnostics& report) {

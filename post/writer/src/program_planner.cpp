@@ -3,11 +3,14 @@
 // Turns CL records into NC steps. The start and end order follows facts known from Siemens' own Sinumerik post.
 #include <cusp/post/writer/program_planner.hpp>
 
+#include "arc_steps.hpp"
+#include "hole_plan.hpp"
 #include "spindle_speed.hpp"
 
 #include <cusp/base/units.hpp>
 #include <cusp/kinematics/axis_planner.hpp>
 #include <cusp/kinematics/machine.hpp>
+#include <cusp/kinematics/path_refiner.hpp>
 
 #include <fmt/format.h>
 
@@ -17,6 +20,7 @@
 
 namespace cusp::post {
 
+using geometry::Vector3;
 using toolpath::ClRecord;
 using toolpath::CoolantCommand;
 using toolpath::MotionKind;
@@ -25,19 +29,49 @@ using toolpath::SpindleCommand;
 namespace {
 
 /// The start is left free: the rotary axes are positioned at home height, where travel costs nothing at the part.
-kinematics::PlannerOptions axisOptions(const std::string& cl_file) {
+kinematics::PlannerOptions axisOptions(const std::string& cl_file, const PostOptions& chosen) {
     kinematics::PlannerOptions options;
     options.file_name = cl_file;
+    options.orientation_tolerance_rad = chosen.orientation_tolerance_rad;
+    options.pole_cone_rad = chosen.pole_cone_rad;
+    return options;
+}
+
+/// Where a statement sends the tool; none for a statement that does not move it.
+const toolpath::CutterLocation* locationOf(const toolpath::ClStatement& statement) {
+    if (const auto* motion = std::get_if<toolpath::LinearMotion>(&statement)) return &motion->location;
+    if (const auto* arc = std::get_if<toolpath::ArcMotion>(&statement)) return &arc->end;
+    if (const auto* hole = std::get_if<toolpath::HoleLocation>(&statement)) return &hole->location;
+    return nullptr;
+}
+
+bool isCut(const toolpath::ClStatement& statement) {
+    const auto* motion = std::get_if<toolpath::LinearMotion>(&statement);
+    return motion != nullptr ? motion->kind == MotionKind::Feed
+                             : std::holds_alternative<toolpath::ArcMotion>(statement);
+}
+
+kinematics::RefinerOptions refinerOptions(const std::string& cl_file, const PostOptions& chosen) {
+    kinematics::RefinerOptions options;
+    options.file_name = cl_file;
+    options.orientation_tolerance_rad = chosen.orientation_tolerance_rad;
     return options;
 }
 
 }  // namespace
 
 struct ProgramPlanner::State {
-    State(const MachineFile& machine_file, const kinematics::Machine& model, PostOptions post_options, std::string file,
-          NcSink& steps, base::Diagnostics& diagnostics)
-        : machine(machine_file), options(std::move(post_options)), cl_file(std::move(file)), sink(steps),
-          report(diagnostics), axes(model, axisOptions(cl_file)), rotary_count(model.rotaryCount()) {
+    State(const MachineFile& machine_file, const kinematics::Machine& machine_model, PostOptions post_options,
+          std::string file, NcSink& steps, base::Diagnostics& diagnostics)
+        : machine(machine_file),
+          options(std::move(post_options)),
+          cl_file(std::move(file)),
+          sink(steps),
+          report(diagnostics),
+          model(machine_model),
+          axes(model, axisOptions(cl_file, options)),
+          refiner(model, refinerOptions(cl_file, options)),
+          rotary_count(model.rotaryCount()) {
         if (options.spindle_rpm) {
             spindle.turn = SpindleCommand::Turn::Clockwise;
             spindle.speed_rpm = *options.spindle_rpm;
@@ -51,7 +85,9 @@ struct ProgramPlanner::State {
     std::string cl_file;
     NcSink& sink;
     base::Diagnostics& report;
+    const kinematics::Machine& model;
     kinematics::AxisPlanner axes;
+    kinematics::PathRefiner refiner;
     std::size_t rotary_count;
 
     /// Records waiting for the rotary axes of the first motion among them.
@@ -71,6 +107,11 @@ struct ProgramPlanner::State {
     bool warned_no_tool = false;
     bool warned_spindle_off = false;
 
+    std::optional<toolpath::CycleStart> cycle;
+    std::optional<HoleCycle> cycle_told;
+
+    kinematics::PlannedAxes planned;
+    Vector3 tip = Vector3::Zero();  ///< where the last motion ended
     PostSummary summary;
     std::optional<RotaryValues> last_rotary;
 
@@ -82,21 +123,15 @@ struct ProgramPlanner::State {
 
     void drain() {
         while (!waiting.empty()) {
-            if (const auto* motion = std::get_if<toolpath::LinearMotion>(&waiting.front().statement)) {
-                kinematics::PlannedAxes planned;
-                if (!axes.pop(planned)) return;
-                line = waiting.front().line;
-                take(*motion, planned.rotary_rad);
-            } else {
-                line = waiting.front().line;
-                std::visit([this](const auto& statement) { take(statement); }, waiting.front().statement);
-            }
+            const ClRecord& record = waiting.front();
+            if (locationOf(record.statement) != nullptr && !axes.pop(planned)) return;
+            line = record.line;
+            std::visit([this](const auto& statement) { take(statement); }, record.statement);
             waiting.pop_front();
         }
     }
 
     // --- statements ---
-    void take(const toolpath::LinearMotion&) {}  // motions come with their rotary values, below
     void take(const toolpath::FeedRate& rate) { feed = rate; }
     void take(const toolpath::ProgramEnd&) {}
     void take(const toolpath::ProgramStop& stop) { emit(Stop{stop.optional}); }
@@ -105,11 +140,17 @@ struct ProgramPlanner::State {
 
     void take(const toolpath::StartPosition&) {}
     void take(const toolpath::WorkPlane&) {}
-    void take(const toolpath::ArcMotion&) { refuse("arcs are"); }
-    void take(const toolpath::HomeReturn&) { refuse("GOHOME is"); }
-    void take(const toolpath::CycleStart&) { refuse("drilling cycles are"); }
-    void take(const toolpath::HoleLocation&) {}
-    void take(const toolpath::CycleEnd&) {}
+    void take(const toolpath::HomeReturn&) {
+        if (cutting) leavePart();
+    }
+    void take(const toolpath::CycleStart& start) {
+        endHoleCycle();
+        cycle = start;
+    }
+    void take(const toolpath::CycleEnd&) {
+        endHoleCycle();
+        cycle.reset();
+    }
     void take(const toolpath::CutterCompensation& command) {
         if (command.side != toolpath::CutterCompensation::Side::Off) refuse("cutter radius compensation is");
     }
@@ -154,39 +195,91 @@ struct ProgramPlanner::State {
     void take(const toolpath::ProgrammingFrame& next) {
         if (!frame) {
             const auto& origin = next.part_from_programming.translation();
-            emit(Comment{fmt::format("work offset: the programming frame, origin X{:.4f} Y{:.4f} Z{:.4f} mm in the part",
-                                     origin.x(), origin.y(), origin.z())});
+            emit(
+                Comment{fmt::format("work offset: the programming frame, origin X{:.4f} Y{:.4f} Z{:.4f} mm in the part",
+                                    origin.x(), origin.y(), origin.z())});
         } else if (!frame->part_from_programming.isApprox(next.part_from_programming, 1e-9)) {
-            report.error("post.second-frame",
-                         "the programming frame (MSYS) changes inside the file; one program can hold one work offset so "
-                         "far. Export the operations of each frame as a CL file of their own.",
-                         here());
+            report.error(
+                "post.second-frame",
+                "the programming frame (MSYS) changes inside the file; one program can hold one work offset so "
+                "far. Export the operations of each frame as a CL file of their own.",
+                here());
         }
         frame = next;
     }
 
-    void take(const toolpath::LinearMotion& motion, const RotaryValues& rotary_rad) {
-        ++summary.cutter_locations;
-        checkMotion(motion);
-        countRotary(rotary_rad);
+    // --- motions: `planned` holds the rotary values of the one at hand ---
+    void take(const toolpath::LinearMotion& motion) {
+        beginMotion(motion.kind == MotionKind::Feed);
         const toolpath::FeedRate rate = feed.value_or(toolpath::FeedRate{});
-        if (!cutting) return reachPart(motion, rotary_rad, rate);
-        emit(Move{motion.location.tip_mm, rotary_rad, motion.kind, rate});
+        const Vector3& tip_mm = motion.location.tip_mm;
+        if (!cutting) return reachPart(tip_mm, motion.kind, rate);
+        const bool mended = !planned.rewind && !planned.in_pole_cone;
+        const kinematics::PathPoint point{.tip_mm = tip_mm,
+                                          .rotary_rad = planned.rotary_rad,
+                                          .line = line,
+                                          .cutting = motion.kind == MotionKind::Feed,
+                                          .rewind = !mended};
+        for (const kinematics::PathPoint& next : refiner.advance(point))
+            emit(Move{next.tip_mm, next.rotary_rad, motion.kind, rate});
+        tip = tip_mm;
+    }
+
+    void take(const toolpath::ArcMotion& arc) {
+        beginMotion(true);
+        if (!cutting)
+            return report.error("post.arc-start", "the path begins with an arc: where it starts is not known", here());
+        const auto rate = feed.value_or(toolpath::FeedRate{});
+        for (NcItem& item : arcSteps(arc, tip, planned.rotary_rad, rate, options.chord_tolerance_mm))
+            sink.step({std::move(item), line});
+        standAt(arc.end.tip_mm);
+    }
+
+    void take(const toolpath::HoleLocation& hole) {
+        beginMotion(false);
+        const auto drilling = planHole(*cycle, hole.location, spindle, feed);
+        if (!drilling) return report.error("post.cycle", drilling.error(), here());
+        Vector3 above = hole.location.tip_mm;
+        above.z() = drilling->retract_z_mm;
+        if (!cutting) reachPart(above, MotionKind::Rapid, {});
+        if (cycle_told != *drilling) emit(*drilling);
+        cycle_told = *drilling;
+        emit(HolePosition{above.x(), above.y(), planned.rotary_rad});
+        standAt(above);
+    }
+
+    void beginMotion(bool cut) {
+        ++summary.cutter_locations;
+        checkMotion(cut);
+        if (planned.in_pole_cone && last_rotary) tellPoleCone(*last_rotary);
+        countRotary(planned.rotary_rad);
+    }
+    /// The tool got there by a way that is not the refiner's.
+    void standAt(const Vector3& tip_mm) {
+        tip = tip_mm;
+        refiner.interrupt();
+        static_cast<void>(refiner.advance({.tip_mm = tip_mm, .rotary_rad = planned.rotary_rad, .line = line}));
+    }
+    void endHoleCycle() {
+        if (cycle_told) emit(HoleCycleOff{});
+        cycle_told.reset();
     }
 
     // --- sequences ---
-    void reachPart(const toolpath::LinearMotion& motion, const RotaryValues& rotary_rad, const toolpath::FeedRate& rate) {
+    void reachPart(const Vector3& tip_mm, MotionKind kind, const toolpath::FeedRate& rate) {
         emit(Smoothing{true});
         emit(SelectWorkOffset{});
         tellSpindle();
         tellCoolant();
-        if (rotary_count > 0) emit(PositionRotary{rotary_rad});
+        if (rotary_count > 0) emit(PositionRotary{planned.rotary_rad});
         emit(TipProgramming{true});
-        emit(Approach{motion.location.tip_mm, rotary_rad, motion.kind, rate});
+        emit(Approach{tip_mm, planned.rotary_rad, kind, rate});
         cutting = true;
+        standAt(tip_mm);
     }
 
     void leavePart() {
+        endHoleCycle();
         emit(TipProgramming{false});
         if (spindle_told.turn != SpindleCommand::Turn::Off) emit(Spindle{});
         if (coolant_told != CoolantCommand::Kind::Off) emit(Coolant{});
@@ -208,18 +301,31 @@ struct ProgramPlanner::State {
     }
 
     // --- checks ---
-    void checkMotion(const toolpath::LinearMotion& motion) {
+    void checkMotion(bool cut) {
         if (!tool && !std::exchange(warned_no_tool, true))
             report.warning("post.no-tool", "the tool moves before any tool is called; the program changes no tool",
                            here());
-        if (motion.kind == MotionKind::Rapid) return;
+        if (!cut) return;
         if (!feed) {
             report.error("post.no-feed", "a cutting move without a feed rate: there is no FEDRAT before it", here());
             feed = toolpath::FeedRate{};
         }
         if (spindle.turn != SpindleCommand::Turn::Off || std::exchange(warned_spindle_off, true)) return;
         report.add({options.strict ? base::Severity::Error : base::Severity::Warning, "post.spindle-off",
-                    "cuts with the spindle off: there is no SPINDL before it. Give the speed with --spindle-rpm.", here()});
+                    "cuts with the spindle off: there is no SPINDL before it. Give the speed with --spindle-rpm.",
+                    here()});
+    }
+
+    /// The limits allow no other way: told with the numbers, so that the programmer can look at the place.
+    void tellPoleCone(const RotaryValues& from) {
+        const double swing = kinematics::linearTurnDeviation(model, from, planned.rotary_rad);
+        report.warning(
+            "post.pole-cone",
+            fmt::format("the rotary limits force a change of branch in a cut: {} turns {:.1f}° and the tool axis "
+                        "swings {:.2f}° off its way, the tip stays on the path; --pole-cone-deg 0 refuses it",
+                        model.rotaryNames()[0], base::degFromRad(std::abs(planned.rotary_rad[0] - from[0])),
+                        base::degFromRad(swing)),
+            here());
     }
 
     void countRotary(const RotaryValues& rotary_rad) {
@@ -246,8 +352,8 @@ ProgramPlanner::ProgramPlanner(const MachineFile& file, const kinematics::Machin
 ProgramPlanner::~ProgramPlanner() = default;
 
 void ProgramPlanner::take(const ClRecord& record) {
-    if (const auto* motion = std::get_if<toolpath::LinearMotion>(&record.statement))
-        state_->axes.push({motion->location.axis, record.line, motion->kind == MotionKind::Feed});
+    if (const auto* location = locationOf(record.statement))
+        state_->axes.push({location->axis, record.line, isCut(record.statement)});
     state_->waiting.push_back(record);
     state_->drain();
 }
@@ -261,7 +367,13 @@ PostSummary ProgramPlanner::finish() {
     state.emit(Smoothing{false});
     state.emit(End{});
     state.report.append(state.axes.report());
-    state.summary.limit_violations += state.axes.summary().limit_violations + state.axes.summary().unreached;
+    state.report.append(state.refiner.report());
+    const kinematics::RefinerSummary& refined = state.refiner.summary();
+    state.summary.inserted_blocks = refined.inserted;
+    state.summary.largest_axis_deviation_rad = refined.max_deviation_rad;
+    state.summary.largest_axis_deviation_cl_line = refined.max_deviation_line;
+    state.summary.limit_violations += state.axes.summary().limit_violations + state.axes.summary().unreached +
+                                      state.axes.summary().rewinds + state.refiner.report().errorCount();
     return state.summary;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cusp/base/toml_schema.hpp>
+#include <cusp/base/units.hpp>
 
 #include <optional>
 #include <string>
@@ -17,6 +18,13 @@ struct PostOptions {
     std::optional<double> spindle_rpm;
     /// Overrides the machine file's work offset ("G54", "G505").
     std::string work_offset;
+    /// How far the tool axis may leave the great circle between two points of the CL file while cutting.
+    double orientation_tolerance_rad = base::radFromDeg(0.05);
+    /// Where rotary limits force a change of branch in a cut, it is made this close to the pole at most, and told; the tool
+    /// axis leaves its way by up to as much. 0: such a path is refused.
+    double pole_cone_rad = base::radFromDeg(3.0);
+    /// How far the chords of arcs the control cannot drive as such may be from them.
+    double chord_tolerance_mm = 0.005;
     /// A cut with the spindle off is an error instead of a warning.
     bool strict = false;
 };

@@ -25,6 +25,10 @@ struct PostSummary {
     std::size_t operations = 0;
     std::size_t tool_changes = 0;
     std::size_t limit_violations = 0;
+    /// Moves put between cutter locations so that the tool axis keeps its way, and how far it still leaves it.
+    std::size_t inserted_blocks = 0;
+    double largest_axis_deviation_rad = 0.0;
+    std::uint32_t largest_axis_deviation_cl_line = 0;
     /// Smallest and largest value of each rotary axis, in chain order.
     std::array<std::pair<double, double>, 2> rotary_range_rad{};
     /// Total movement of the rotary axes between cutter locations, and the largest single one.
