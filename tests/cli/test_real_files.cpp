@@ -34,5 +34,20 @@ TEST_F(RealFiles, FiveAxisPathsFollowTheirClFiles) {
     EXPECT_EQ(postAndVerify("nx_apt_code.cls", "fooke-endura-ca")["matched"], 325);
 }
 
+TEST_F(RealFiles, TheToolAxisStaysOnItsWayWhereTheRotaryAxesAreFree) {
+    for (const std::string machine : {"haas-umc-bc", "trunnion-ac", "nutating-45"}) {
+        const auto json = postAndVerify("nx_variable_axis.cls", machine);
+        EXPECT_LE(json["max_axis_between_deg"].get<double>(), 0.05) << machine;
+        EXPECT_GT(json["intermediate"], 0) << machine;
+    }
+}
+
+TEST_F(RealFiles, ArcsFollowTheirClFiles) {
+    for (const std::string machine : {"fooke-endura-ca", "three-axis"}) {
+        EXPECT_EQ(postAndVerify("nx_zig.cls", machine)["matched"], 118);
+        EXPECT_EQ(postAndVerify("nx_zigzag_smoothed.cls", machine)["matched"], 75);
+    }
+}
+
 }  // namespace
 }  // namespace cusp::cli

@@ -201,6 +201,31 @@ TEST_F(Planner, ASecondProgrammingFrameIsRefused) {
     EXPECT_EQ(report.front().where.line, 9U);
 }
 
+TEST_F(Planner, ArcsAndHoles) {
+    const std::string text = plan("UNITS/MM\nCUTTER/6,0,3,0,0,0,50\nLOADTL/4\nSPINDL/500,RPM,CLW\n"
+                                  "RAPID\nGOTO/10,0,20\nFEDRAT/600,MMPM\nGOTO/10,0,0\n"
+                                  "CIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\n"
+                                  "RAPID\nGOTO/0,10,20\n"
+                                  "CYCLE/DRILL,15,MMPM,300,2\nGOTO/5,5,1\nGOTO/6,5,1\nGOTO/6,5,0\nCYCLE/OFF\n"
+                                  "RAPID\nGOTO/0,0,50\nFINI\n");
+    ASSERT_FALSE(report.hasErrors()) << base::toText(report);
+    const auto body = text.find("approach");
+    EXPECT_EQ(text.substr(body, text.find("tip-programming off") - body),
+              "approach rapid X10.0000 Y0.0000 Z20.0000 C0.0000 A0.0000\n"
+              "move feed X10.0000 Y0.0000 Z0.0000 C0.0000 A0.0000 600.000 mm/min\n"
+              "arc ccw X0.0000 Y10.0000 Z0.0000 I-10.0000 J0.0000 C0.0000 A0.0000 600.000 mm/min\n"
+              "move rapid X0.0000 Y10.0000 Z20.0000 C0.0000 A0.0000\n"
+              "hole-cycle drill retract Z3.0000 surface Z1.0000 clearance 2.0000 depth 15.0000 dwell 0.000 peck 0.0000 "
+              "0.0000 pitch 0.0000 300.000 mm/min\n"
+              "hole X5.0000 Y5.0000 C0.0000 A0.0000\n"
+              "hole X6.0000 Y5.0000 C0.0000 A0.0000\n"
+              "hole-cycle drill retract Z2.0000 surface Z0.0000 clearance 2.0000 depth 15.0000 dwell 0.000 peck 0.0000 "
+              "0.0000 pitch 0.0000 300.000 mm/min\n"
+              "hole X6.0000 Y5.0000 C0.0000 A0.0000\n"
+              "hole-cycle off\n"
+              "move rapid X0.0000 Y0.0000 Z50.0000 C0.0000 A0.0000\n");
+}
+
 TEST_F(Planner, AxisBeyondItsLimitNamesLineValueAndLimit) {
     plan(std::string(head) + "SPINDL/RPM,100,CLW\nFEDRAT/MMPM,100.0\n"
                              "GOTO/0.0,0.0,0.0,0.0,0.0,1.0\n"
