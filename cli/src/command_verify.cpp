@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cusp::cli {
 
@@ -33,6 +34,9 @@ struct Flags {
     double tip_tolerance_mm = 0.001;
     double axis_tolerance_deg = 0.001;
     std::optional<double> between_axis_tolerance_deg;
+    std::optional<double> between_tip_tolerance_mm;
+    std::optional<double> tool_length_mm;
+    std::vector<double> wcs_origin_mm;
     bool strict = false;
     bool json = false;
 };
@@ -96,7 +100,10 @@ ExitCode runVerify(const Flags& flags) {
 
     post::verify::VerifyOptions options;
     options.tip_tolerance_mm = flags.tip_tolerance_mm;
-    options.between_tip_tolerance_mm = flags.tip_tolerance_mm;
+    options.between_tip_tolerance_mm = flags.between_tip_tolerance_mm.value_or(flags.tip_tolerance_mm);
+    options.tool_length_mm = flags.tool_length_mm;
+    if (flags.wcs_origin_mm.size() == 3)
+        options.wcs_origin_mm = {flags.wcs_origin_mm[0], flags.wcs_origin_mm[1], flags.wcs_origin_mm[2]};
     options.axis_tolerance_rad = base::radFromDeg(flags.axis_tolerance_deg);
     if (flags.between_axis_tolerance_deg)
         options.between_axis_tolerance_rad = base::radFromDeg(*flags.between_axis_tolerance_deg);
@@ -141,6 +148,15 @@ void addVerifyCommand(CLI::App& app, Action& action) {
         ->add_option("--between-axis-tolerance-deg", flags->between_axis_tolerance_deg,
                      "Allowed angle between block ends; stated but not judged when left out.")
         ->check(CLI::PositiveNumber);
+    verify->add_option("--between-tip-tolerance-mm", flags->between_tip_tolerance_mm,
+                       "Allowed distance of the tip from the CL file between block ends; as --tip-tolerance-mm when left out.")
+        ->check(CLI::PositiveNumber);
+    verify->add_option("--tool-length-mm", flags->tool_length_mm,
+                       "Length of the tool, for programs that turn rotary axes without TRAORI.")
+        ->check(CLI::NonNegativeNumber);
+    verify->add_option("--wcs-origin-mm", flags->wcs_origin_mm,
+                       "Origin of the work offset in machine coordinates, X Y Z: for such programs on machines with a rotary table.")
+        ->expected(3);
     verify->add_flag("--strict", flags->strict, "Words whose meaning is the machine builder's are errors.");
     verify->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
     verify->callback([flags, &action] { action = [flags] { return runVerify(*flags); }; });

@@ -49,7 +49,7 @@ std::string distanceText(const PoseError& error, const Tolerance& tolerance, std
 
 Alignment::Alignment(const MachineFile& machine, const ExpectedPath* expected, const VerifyOptions& options,
                      const std::string& program_name, VerifyReport& report)
-    : chain_(machine.machine),
+    : chain_(machine.machine, {options.tool_length_mm, options.wcs_origin_mm}),
       expected_(expected),
       options_(options),
       tolerance_{options.tip_tolerance_mm, options.axis_tolerance_rad},
@@ -67,8 +67,8 @@ void Alignment::event(const reader::BlockPlace& place, const reader::ExecutedEve
 }
 
 void Alignment::motion(const ExecutedMotion& motion) {
-    if (motion.vector_programmed) report_.rotary_limits_checked = false;
     checkLimits(motion);
+    checkReach(motion);
     if (expected_ != nullptr) {
         compare(motion);
         dwelt_s_.reset();
@@ -76,21 +76,6 @@ void Alignment::motion(const ExecutedMotion& motion) {
     }
     const bool idle = !isRapid(motion) && motion.state->spindle == reader::SpindleTurn::Off;
     if (idle) findings_.warning("verify.spindle-off", motion.place, "the spindle is off in a feed move");
-}
-
-void Alignment::checkLimits(const ExecutedMotion& motion) {
-    for (std::size_t i = 0; i < chain_.rotaryCount(); ++i) {
-        const auto& value = motion.end.rotary_rad[i];
-        const machine::RotaryAxis& axis = chain_.rotaryAxis(i);
-        if (!value) continue;
-        const bool below = axis.min_rad && *value < *axis.min_rad - limit_slack_rad;
-        const bool above = axis.max_rad && *value > *axis.max_rad + limit_slack_rad;
-        if (!below && !above) continue;
-        ++report_.limit_violations;
-        findings_.error("verify.limit", motion.place,
-                        fmt::format("axis {} is at {:.6g}°, beyond its limit {:.6g}°", chain_.rotaryName(i),
-                                    base::degFromRad(*value), base::degFromRad(below ? *axis.min_rad : *axis.max_rad)));
-    }
 }
 
 void Alignment::compare(const ExecutedMotion& motion) {
@@ -275,40 +260,6 @@ ExpectedMove Alignment::nextMove() const {
     move.arc = &expected_->arcs[point.arc];
     move.from.tip_mm = move.arc->start_mm;
     return move;
-}
-
-const ExpectedCycle* Alignment::nextHole() const {
-    const std::uint32_t cycle = done() ? none : expected_->points[next_].cycle;
-    return cycle == none ? nullptr : &expected_->cycles[cycle];
-}
-
-/// On the way to the bottom the tool may go up and down: at rapid where it has cut, at the feed below, and no further at
-/// once than the peck.
-void Alignment::inHole(const ExecutedMotion& motion, const ExpectedCycle& cycle, double fraction) {
-    const std::size_t line = expected_->points[next_].line;
-    const double way = cycle.approach_mm + cycle.depth_mm;
-    const double deeper = std::max(0.0, fraction * way - std::max(drilled_ * way, cycle.approach_mm));
-    if (deeper <= tolerance_.tip_mm) return;
-    if (isRapid(motion) && fraction < 1.0)
-        findings_.error(
-            "verify.kind", motion.place,
-            fmt::format("a rapid (G0) goes {:.4g} mm into uncut material in the hole of CL line {}", deeper, line));
-    if (cycle.largest_peck_mm && deeper > *cycle.largest_peck_mm + tolerance_.tip_mm)
-        findings_.error("verify.cycle", motion.place,
-                        fmt::format("drills {:.4g} mm at once in the hole of CL line {}, which is drilled by {:.4g} mm",
-                                    deeper, line, *cycle.largest_peck_mm));
-    drilled_ = std::max(drilled_, fraction);
-}
-
-/// On the way out of a hole.
-void Alignment::checkDwell(const ExecutedMotion& motion, const ExpectedPoint& point) {
-    std::size_t bottom = next_;
-    while (bottom > 0 && expected_->points[bottom].cycle == none) --bottom;
-    const ExpectedCycle& cycle = expected_->cycles[expected_->points[bottom].cycle];
-    if (!cycle.dwell_s || std::abs(dwelt_s_.value_or(0.0) - *cycle.dwell_s) <= 1e-3) return;
-    findings_.error("verify.cycle", motion.place,
-                    fmt::format("dwells {:.4g} s at the bottom of the hole of CL line {}, which has {:.4g} s",
-                                dwelt_s_.value_or(0.0), point.line, *cycle.dwell_s));
 }
 
 void Alignment::checkKind(const ExecutedMotion& motion, const ExpectedPoint& point) {

@@ -35,6 +35,7 @@ private:
     };
 
     void checkLimits(const reader::ExecutedMotion& motion);
+    void checkReach(const reader::ExecutedMotion& motion);
     void compare(const reader::ExecutedMotion& motion);
     void withoutPose(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool meetsNext(const reader::ExecutedMotion& motion);

@@ -23,6 +23,7 @@ base::Result<VerifyReport> verifyProgram(std::istream& program, const std::strin
     Alignment alignment(machine, against != nullptr ? &expected : nullptr, options, program_name, report);
     reader::ReaderOptions reader_options;
     reader_options.strict = options.strict;
+    reader_options.setup = {options.tool_length_mm, options.wcs_origin_mm};
     base::Diagnostics read;
     const reader::ReadSummary summary =
         reader::readProgram(program, program_name, machine, reader_options, alignment, read);
@@ -68,7 +69,7 @@ std::string toText(const VerifyReport& report) {
                         report.limit_violations > 0 ? fmt::format("{} violations", report.limit_violations)
                         : report.rotary_limits_checked
                             ? std::string("kept")
-                            : std::string("kept where rotary values are programmed; not checked for A3, B3, C3"));
+                            : std::string("kept where rotary values are programmed, else not checked"));
     text +=
         fmt::format("{:<22}{}\n", "linear travel", report.linear_travel_checked ? "kept" : "not checked (no setup)");
     return text + fmt::format("{:<22}{}\n", "result", report.pass ? "pass" : "FAIL");

@@ -9,6 +9,7 @@
 #include <cusp/post/control/control_definition.hpp>
 #include <cusp/toolpath/cl_reader.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <istream>
@@ -34,6 +35,11 @@ struct VerifyOptions {
     double speed_tolerance_rpm = 0.51;
     /// The cutting blocks must run in the work offset the machine file names.
     bool check_work_offset = true;
+    /// From the gauge point to the tip, of every tool: places the tip where rotary axes are away from zero without TRAORI.
+    std::optional<double> tool_length_mm;
+    /// Origin of the work offset in the machine frame, all axes at zero: needed as well where a rotary axis carries the
+    /// workpiece.
+    std::optional<std::array<double, 3>> wcs_origin_mm;
     /// Warnings of the reader (M functions of the machine builder) are errors.
     bool strict = false;
 };
@@ -62,8 +68,8 @@ struct VerifyReport {
     Extreme max_tip_between_mm;
     Extreme max_axis_between_rad;
 
-    std::size_t limit_violations = 0;    ///< block ends with a rotary axis beyond its limits
-    bool rotary_limits_checked = true;   ///< false when blocks program A3, B3, C3: the values are the control's choice
+    std::size_t limit_violations = 0;    ///< blocks with a rotary axis beyond its limits, at their end or on the way
+    bool rotary_limits_checked = true;   ///< false on machines whose rotary positions are not solved for here
     bool linear_travel_checked = false;  ///< needs to know where the workpiece stands
     bool compared = false;               ///< false without a CL file: only the program itself was looked at
 
