@@ -149,8 +149,8 @@ ExitCode runPost(const Flags& flags) {
 }  // namespace
 
 void addPostCommand(CLI::App& app, Action& action) {
-    CLI::App* post =
-        app.add_subcommand("post", "Turns a CL file (APT from NX or CATIA) into a Sinumerik 840D program.");
+    CLI::App* post = app.add_subcommand(
+        "post", "Turns a CL file (APT from NX, CATIA or SolidWorks CAM) into a Sinumerik 840D program.");
     const auto flags = std::make_shared<Flags>();
     post->add_option("FILE", flags->cl_file, "CL file; - for standard input.")->required();
     post->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")

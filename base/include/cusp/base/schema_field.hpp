@@ -210,9 +210,9 @@ template <class V>
 }
 
 template <class V>
-[[nodiscard]] FieldInfo describeField(std::string key, std::string doc, const FieldRules& rules) {
-    return {.key = std::move(key),
-            .doc = std::move(doc),
+[[nodiscard]] FieldInfo describeField(const std::string& key, const std::string& doc, const FieldRules& rules) {
+    return {.key = key,
+            .doc = doc,
             .type = TypeName<V>::text(),
             .default_text = {},
             .required = rules.required,

@@ -48,8 +48,8 @@ public:
     /// std::map<std::string, …> of those (named numbers: `rotary_deg = {A = 10}`); std::optional of any of these (an
     /// absent key leaves it as it is by default, which should be empty: TOML cannot write "nothing").
     template <class V>
-    Section& field(std::string key, V T::* member, std::string doc, FieldRules rules = {}) {
-        FieldInfo info = describeField<V>(std::move(key), std::move(doc), rules);
+    Section& field(const std::string& key, V T::* member, const std::string& doc, FieldRules rules = {}) {
+        FieldInfo info = describeField<V>(key, doc, rules);
         info.default_text = rules.required ? "" : printValue(T{}.*member, info);
         fields_.push_back(
             {info,
