@@ -35,10 +35,11 @@ std::string rotaryText(const PostOutcome& outcome) {
             fmt::format("  largest rotary step: {} by {:.3f}° at CL line {}\n", names[summary.largest_rotary_step_axis],
                         base::degFromRad(summary.largest_rotary_step_rad), summary.largest_rotary_step_cl_line);
     if (summary.inserted_blocks > 0)
+        out += "  " + plural(summary.inserted_blocks, "block") + " inserted near the pole\n";
+    if (summary.largest_axis_deviation_rad > 0.0)
         out +=
-            fmt::format("  {} inserted so that the tool axis stays within {:.3f}° of its way (CL line {})\n",
-                        plural(summary.inserted_blocks, "block"), base::degFromRad(summary.largest_axis_deviation_rad),
-                        summary.largest_axis_deviation_cl_line);
+            fmt::format("  while cutting, the tool axis leaves its way by at most {:.3f}°, at CL line {}\n",
+                        base::degFromRad(summary.largest_axis_deviation_rad), summary.largest_axis_deviation_cl_line);
     return out;
 }
 

@@ -14,12 +14,15 @@ protected:
     }
     nlohmann::json postAndVerify(const std::string& name, const std::string& machine) {
         const std::string cl = std::string(CUSP_SHARED_DATA) + "/cl/" + name;
-        const auto posted = run({"post", cl, "-m", machine, "-o", path("P.MPF"), "--spindle-rpm", "5000"});
+        const auto posted = run({"post", cl, "-m", machine, "-o", path("P.MPF"), "--spindle-rpm", "5000", "--json"});
         EXPECT_EQ(posted.exit_code, 0) << machine << "\n" << posted.errors << posted.output;
+        post = nlohmann::json::parse(posted.output, nullptr, false);
         const auto verified = run({"verify", path("P.MPF"), "-m", machine, "--against", cl, "--json"});
         EXPECT_EQ(verified.exit_code, 0) << machine << "\n" << verified.errors << verified.output;
         return nlohmann::json::parse(verified.output, nullptr, false);
     }
+
+    nlohmann::json post;  ///< what the last posting said of itself
 };
 
 TEST_F(RealFiles, FiveAxisPathsFollowTheirClFiles) {
@@ -30,6 +33,9 @@ TEST_F(RealFiles, FiveAxisPathsFollowTheirClFiles) {
         EXPECT_LE(json["max_tip_error_mm"].get<double>(), 0.001);
         EXPECT_LE(json["max_axis_error_deg"].get<double>(), 0.001);
         EXPECT_EQ(json["limit_violations"], 0);
+        // What the post says of its own program is what the witness finds.
+        EXPECT_NEAR(post["max_axis_between_deg"].get<double>(), json["max_axis_between_deg"].get<double>(), 0.01)
+            << machine;
     }
     EXPECT_EQ(postAndVerify("nx_apt_code.cls", "fooke-endura-ca")["matched"], 325);
 }

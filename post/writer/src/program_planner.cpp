@@ -319,6 +319,7 @@ struct ProgramPlanner::State {
     /// The limits allow no other way: told with the numbers, so that the programmer can look at the place.
     void tellPoleCone(const RotaryValues& from) {
         const double swing = kinematics::linearTurnDeviation(model, from, planned.rotary_rad);
+        countDeviation(swing, line);
         report.warning(
             "post.pole-cone",
             fmt::format("the rotary limits force a change of branch in a cut: {} turns {:.1f}° and the tool axis "
@@ -326,6 +327,12 @@ struct ProgramPlanner::State {
                         model.rotaryNames()[0], base::degFromRad(std::abs(planned.rotary_rad[0] - from[0])),
                         base::degFromRad(swing)),
             here());
+    }
+
+    void countDeviation(double deviation_rad, std::uint32_t cl_line) {
+        if (deviation_rad <= summary.largest_axis_deviation_rad) return;
+        summary.largest_axis_deviation_rad = deviation_rad;
+        summary.largest_axis_deviation_cl_line = cl_line;
     }
 
     void countRotary(const RotaryValues& rotary_rad) {
@@ -370,8 +377,7 @@ PostSummary ProgramPlanner::finish() {
     state.report.append(state.refiner.report());
     const kinematics::RefinerSummary& refined = state.refiner.summary();
     state.summary.inserted_blocks = refined.inserted;
-    state.summary.largest_axis_deviation_rad = refined.max_deviation_rad;
-    state.summary.largest_axis_deviation_cl_line = refined.max_deviation_line;
+    state.countDeviation(refined.max_deviation_rad, refined.max_deviation_line);
     state.summary.limit_violations += state.axes.summary().limit_violations + state.axes.summary().unreached +
                                       state.axes.summary().rewinds + state.refiner.report().errorCount();
     return state.summary;
