@@ -148,14 +148,19 @@ void addVerifyCommand(CLI::App& app, Action& action) {
         ->add_option("--between-axis-tolerance-deg", flags->between_axis_tolerance_deg,
                      "Allowed angle between block ends; stated but not judged when left out.")
         ->check(CLI::PositiveNumber);
-    verify->add_option("--between-tip-tolerance-mm", flags->between_tip_tolerance_mm,
-                       "Allowed distance of the tip from the CL file between block ends; as --tip-tolerance-mm when left out.")
+    verify
+        ->add_option(
+            "--between-tip-tolerance-mm", flags->between_tip_tolerance_mm,
+            "Allowed distance of the tip from the CL file between block ends; as --tip-tolerance-mm when left out.")
         ->check(CLI::PositiveNumber);
-    verify->add_option("--tool-length-mm", flags->tool_length_mm,
-                       "Length of the tool, for programs that turn rotary axes without TRAORI.")
+    verify
+        ->add_option("--tool-length-mm", flags->tool_length_mm,
+                     "Length of the tool, for programs that turn rotary axes without TRAORI.")
         ->check(CLI::NonNegativeNumber);
-    verify->add_option("--wcs-origin-mm", flags->wcs_origin_mm,
-                       "Origin of the work offset in machine coordinates, X Y Z: for such programs on machines with a rotary table.")
+    verify
+        ->add_option(
+            "--wcs-origin-mm", flags->wcs_origin_mm,
+            "Origin of the work offset in machine coordinates, X Y Z: for such programs on machines with a rotary table.")
         ->expected(3);
     verify->add_flag("--strict", flags->strict, "Words whose meaning is the machine builder's are errors.");
     verify->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
