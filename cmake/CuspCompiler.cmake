@@ -30,6 +30,8 @@ set(CUSP_INSTRUMENT_FLAGS "")
 if(CUSP_SANITIZE)
   list(APPEND CUSP_INSTRUMENT_FLAGS -fsanitize=${CUSP_SANITIZE})
   add_compile_options(-fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # The library's own checks: an empty optional read, an index out of range.
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
 endif()
 option(CUSP_COVERAGE "Instrument for coverage" OFF)
 if(CUSP_COVERAGE)

@@ -90,6 +90,7 @@ void Diagnostics::note(std::string_view code, std::string message, Location wher
 
 void Diagnostics::append(const Diagnostics& other) {
     // A copy: `other` may be this list itself, and `add` moves items about.
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
     const Diagnostics source = other;
     std::size_t kept_errors = 0;
     std::size_t kept_warnings = 0;

@@ -116,7 +116,7 @@ std::string rangeText(const FieldRules& rules) {
     const std::string min = formatShortest(has_min ? rules.min : 0.0);
     const std::string max = formatShortest(has_max ? rules.max : 0.0);
     if (!has_min) return "at most " + max;
-    const std::string lower_bound = (rules.min_exclusive ? "greater than " : "at least ") + min;
+    std::string lower_bound = (rules.min_exclusive ? "greater than " : "at least ") + min;
     if (!has_max) return lower_bound;
     return rules.min_exclusive ? lower_bound + " and at most " + max : "between " + min + " and " + max;
 }

@@ -32,7 +32,7 @@ std::string cell(std::string_view text) {
 std::string code(std::string_view text) { return text.empty() ? std::string() : "`" + cell(text) + "`"; }
 
 std::string demandText(const FieldInfo& field) {
-    const std::string range = rangeText(field.rules);
+    std::string range = rangeText(field.rules);
     if (!field.required) return range;
     return range.empty() ? "required" : "required, " + range;
 }

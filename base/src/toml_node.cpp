@@ -175,7 +175,7 @@ Result<TomlDocument> TomlDocument::parse(std::string_view text, const std::strin
 
 TomlNode TomlDocument::root() const {
     const toml::node& root = content_->root;
-    return TomlNode(&root, file_, {});
+    return {&root, file_, {}};
 }
 
 }  // namespace cusp::base

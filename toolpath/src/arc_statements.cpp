@@ -127,7 +127,7 @@ std::optional<DrivenArc> drivenArc(const ReaderContext& context, std::string_vie
     std::transform(text.begin(), text.end(), text.begin(), upperCase);
     const std::size_t close = text.find(')');
     const std::size_t line = text.find(",(LINE/");
-    if (text.rfind(",GOFWD/(CIRCLE/", 0) != 0 || close >= line || line == std::string::npos || text.back() != ')') {
+    if (!text.starts_with(",GOFWD/(CIRCLE/") || close >= line || line == std::string::npos || text.back() != ')') {
         return std::nullopt;
     }
     DrivenArc arc;
@@ -180,7 +180,7 @@ std::optional<Vector3> endOfDrivenArc(ReaderContext& context, const DrivenArc& a
     if (sweep(meetings[1]) < sweep(meetings[0])) {
         std::swap(meetings[0], meetings[1]);
     }
-    const Vector3 end = meetings[static_cast<std::size_t>(arc.intersection - 1)];
+    Vector3 end = meetings[static_cast<std::size_t>(arc.intersection - 1)];
     if (std::abs((arc.line_second_mm - arc.center_mm).norm() - arc.radius_mm) > arc_tolerance_mm) {
         return end;
     }

@@ -81,8 +81,7 @@ void handleSpindl(ReaderContext& context, std::string_view word, std::string_vie
     bool off = false;
     std::optional<SpindleCommand::Turn> turn;
     const Fields fields(body);
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        const Field& field = fields[i];
+    for (const Field& field : fields) {
         if (field.is_number && !speed) {
             speed = field.number;
         } else if (field.is("RPM") || field.is("ON")) {

@@ -62,7 +62,7 @@ public:
 
     /// One of a fixed set of words; for an optional member, or no such key.
     template <class M>
-    Section& choice(std::string key, M T::* member, Words<M> words, std::string doc, FieldRules rules = {}) {
+    Section& choice(std::string key, M T::* member, const Words<M>& words, std::string doc, FieldRules rules = {}) {
         FieldInfo info;
         info.key = std::move(key);
         info.doc = std::move(doc);
@@ -91,7 +91,7 @@ public:
 
     /// A nested table `[key]`.
     template <class U>
-    Section& table(std::string key, U T::* member, Section<U> section, FieldRules rules = {}) {
+    Section& table(std::string key, U T::* member, const Section<U>& section, FieldRules rules = {}) {
         FieldInfo info = nestedInfo(std::move(key), section.doc(), "table", rules, section.describe());
         fields_.push_back({info,
                            [member, section](T& out, const TomlNode& node, Diagnostics& report) {
@@ -105,7 +105,7 @@ public:
 
     /// A nested table that may be absent; the member is empty then.
     template <class U>
-    Section& table(std::string key, std::optional<U> T::* member, Section<U> section, FieldRules rules = {}) {
+    Section& table(std::string key, std::optional<U> T::* member, const Section<U>& section, FieldRules rules = {}) {
         FieldInfo info = nestedInfo(std::move(key), section.doc(), "table", rules, section.describe());
         fields_.push_back({info,
                            [member, section](T& out, const TomlNode& node, Diagnostics& report) {
@@ -120,7 +120,7 @@ public:
 
     /// An array of tables `[[key]]`.
     template <class U>
-    Section& tables(std::string key, std::vector<U> T::* member, Section<U> section, FieldRules rules = {}) {
+    Section& tables(std::string key, std::vector<U> T::* member, const Section<U>& section, FieldRules rules = {}) {
         FieldInfo info = nestedInfo(std::move(key), section.doc(), "array of tables", rules, section.describe());
         fields_.push_back({info,
                            [member, section, info](T& out, const TomlNode& node, Diagnostics& report) {
@@ -207,6 +207,7 @@ public:
     [[nodiscard]] const std::string& doc() const { return doc_; }
     [[nodiscard]] std::vector<FieldInfo> describe() const {
         std::vector<FieldInfo> out;
+        out.reserve(fields_.size());
         for (const Field& field : fields_) out.push_back(field.info);
         return out;
     }
