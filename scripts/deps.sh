@@ -18,9 +18,14 @@ fi
 
 wanted=$(awk -v sections=" $* " '
     /^\[.*\]$/ { inside = index(sections, " " substr($0, 2, length($0) - 2) " ") > 0; next }
-    inside && NF && $1 !~ /^#/ { print $1 }' "$list" | sort -u)
+    inside && NF && $1 !~ /^#/ { print $1 ~ /^command:/ ? $1 "=" $2 : $1 }' "$list" | sort -u)
 missing=()
-for package in $wanted; do
+for entry in $wanted; do
+    package=${entry#command:*=}
+    if [ "$package" != "$entry" ]; then
+        name=${entry#command:}
+        ! command -v "${name%%=*}" >/dev/null || continue
+    fi
     status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
     [ "$status" = installed ] || missing+=("$package")
 done

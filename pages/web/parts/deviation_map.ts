@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The part as measured, in three dimensions: turns with the mouse, the keys and buttons; values under the pointer.
+import { Box3, Box3Helper, Color, LineBasicMaterial, OrthographicCamera, Scene, Vector3, WebGLRenderer } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+import { ColorScale, legend, type ScaleRange } from "./color_scale";
+import { h, svg } from "./dom";
+import { count, fixed, micrometres } from "./number";
+import { PointCloud, type PointData } from "./point_cloud";
+import { followTheme, token, type Drawing } from "./theme";
+
+/** Directions to look from. */
+export const views = {
+  Oblique: new Vector3(0.75, -1.1, 0.8), Top: new Vector3(0, -1e-4, 1), Front: new Vector3(0, -1, 0), Right: new Vector3(1, 0, 0),
+};
+const pickRadius_px = 14;
+const keyStep_rad = Math.PI / 24;
+
+export class DeviationMap implements Drawing {
+  readonly element: HTMLElement;
+  private readonly canvas: HTMLCanvasElement;
+  private readonly renderer: WebGLRenderer | undefined;
+  private readonly camera = new OrthographicCamera();
+  private readonly scene = new Scene();
+  private readonly cloud: PointCloud;
+  private readonly box: Box3Helper;
+  private controls: OrbitControls | undefined;
+  private readonly axes = svg("svg", { class: "axes", viewBox: "-42 -42 84 84", "aria-hidden": "true" });
+  private readonly tip = h("div", { class: "tip", hidden: true });
+  private legendElement: SVGElement | undefined;
+  private asked = false;
+
+  constructor(private readonly data: PointData, private readonly range: ScaleRange, private deviation_mm: number[]) {
+    this.canvas = h("canvas", { tabindex: "0", role: "img",
+      "aria-label": `Deviation map of ${count(data.x_mm.length)} points; arrow keys turn it, plus and minus zoom` });
+    this.element = h("div", { class: "map" }, this.canvas, this.axes, this.tip);
+    this.cloud = new PointCloud(data);
+    this.box = this.boundingBox();
+    this.scene.add(this.cloud.points, this.box);
+    this.renderer = this.makeRenderer();
+    if (!this.renderer) return;
+    this.controls = this.makeControls();
+    this.listen();
+    this.look(views.Oblique);
+    this.redraw();
+    new ResizeObserver(() => this.fit()).observe(this.element);
+    followTheme(this);
+  }
+
+  /** False where points come without normals. */
+  get canLift(): boolean {
+    return this.cloud.canLift;
+  }
+
+  lift(factor: number): void {
+    this.cloud.setLift(factor);
+    this.ask();
+  }
+
+  size(size_px: number): void {
+    this.cloud.setSize(size_px * devicePixelRatio);
+    this.ask();
+  }
+
+  /** The same points with other deviations, e.g. in the fixed datums. */
+  show(deviation_mm: number[]): void {
+    this.deviation_mm = deviation_mm;
+    this.redraw();
+  }
+
+  look(from: Vector3): void {
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.copy(from).normalize().multiplyScalar(this.cloud.radius_mm * 4);
+    this.camera.zoom = 1;
+    this.camera.updateProjectionMatrix();
+    this.controls?.target.set(0, 0, 0);
+    this.controls?.update();
+    this.ask();
+  }
+
+  redraw(paper_px?: number): void {
+    if (!this.renderer) return;
+    const scale = new ColorScale(this.range);
+    const beyond = this.cloud.paint(scale, this.deviation_mm);
+    this.renderer.setClearColor(new Color().setStyle(token("map-ground"), "srgb-linear"));
+    (this.box.material as LineBasicMaterial).color.setStyle(token("line"), "srgb-linear");
+    const fresh = legend(scale, beyond);
+    this.legendElement?.remove();
+    this.legendElement = fresh;
+    this.element.append(fresh);
+    this.fit(paper_px);
+    this.draw();
+  }
+
+  private boundingBox(): Box3Helper {
+    const { low, high } = this.extent();
+    return new Box3Helper(new Box3(low, high), 0x888888);
+  }
+
+  private extent(): { low: Vector3; high: Vector3 } {
+    const point = new Vector3();
+    const box = new Box3();
+    for (let i = 0; i < this.data.x_mm.length; ++i) box.expandByPoint(this.cloud.drawnAt(i, point));
+    return { low: box.min, high: box.max };
+  }
+
+  private makeRenderer(): WebGLRenderer | undefined {
+    try {
+      // Colours are tokens of the page and pass through as they are; the buffer is kept for printing.
+      const renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, preserveDrawingBuffer: true });
+      renderer.outputColorSpace = "srgb-linear";
+      this.size(6);
+      return renderer;
+    } catch {
+      this.element.replaceChildren(h("div", { class: "absent" },
+        "The map needs WebGL, which this browser does not offer. The deviations are in the sections below and in points.csv."));
+      return undefined;
+    }
+  }
+
+  private makeControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.enableDamping = false;
+    controls.zoomToCursor = true;
+    controls.addEventListener("change", () => this.ask());
+    return controls;
+  }
+
+  private listen(): void {
+    this.canvas.addEventListener("pointermove", (event) => this.point(event));
+    this.canvas.addEventListener("pointerleave", () => (this.tip.hidden = true));
+    this.canvas.addEventListener("dblclick", () => this.look(views.Oblique));
+    this.canvas.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  private key(event: KeyboardEvent): void {
+    const turn: Record<string, [number, number]> = {
+      ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
+    };
+    const zoom: Record<string, number> = { "+": 1.2, "-": 1 / 1.2 };
+    const [around, over] = turn[event.key] ?? [0, 0];
+    const factor = zoom[event.key];
+    if (around === 0 && over === 0 && factor === undefined) return;
+    event.preventDefault();
+    const position = this.camera.position;
+    const polar = Math.acos(position.z / position.length());
+    const wanted = Math.max(1e-3, Math.min(Math.PI - 1e-3, polar + over * keyStep_rad));
+    const azimuth = Math.atan2(position.y, position.x) + around * keyStep_rad;
+    const length = position.length();
+    position.setFromSphericalCoords(length, wanted, 0);
+    position.set(length * Math.sin(wanted) * Math.cos(azimuth), length * Math.sin(wanted) * Math.sin(azimuth), length * Math.cos(wanted));
+    if (factor) this.camera.zoom *= factor;
+    this.camera.updateProjectionMatrix();
+    this.controls?.update();
+    this.ask();
+  }
+
+  /** The nearest point to the pointer among those within a few pixels, the frontmost of equals. */
+  private nearest(x_px: number, y_px: number): number {
+    const { clientWidth, clientHeight } = this.canvas;
+    const point = new Vector3();
+    let best = -1;
+    let best_score = pickRadius_px ** 2;
+    for (let i = 0; i < this.data.x_mm.length; ++i) {
+      this.cloud.drawnAt(i, point).project(this.camera);
+      const dx = (point.x + 1) * 0.5 * clientWidth - x_px;
+      const dy = (1 - point.y) * 0.5 * clientHeight - y_px;
+      const score = dx * dx + dy * dy + (point.z + 1) * 4;
+      if (score < best_score) {
+        best = i;
+        best_score = score;
+      }
+    }
+    return best;
+  }
+
+  private point(event: PointerEvent): void {
+    if (event.buttons !== 0) {
+      this.tip.hidden = true;
+      return;
+    }
+    const { left, top } = this.canvas.getBoundingClientRect();
+    const x_px = event.clientX - left;
+    const y_px = event.clientY - top;
+    const index = this.nearest(x_px, y_px);
+    this.tip.hidden = index < 0;
+    if (index < 0) return;
+    const deviation = this.deviation_mm[index] as number;
+    const at = [this.data.x_mm, this.data.y_mm, this.data.z_mm].map((list) => fixed(list[index], 3)).join("\u2002");
+    this.tip.replaceChildren(h("strong", {}, `${deviation > 0 ? "+" : ""}${micrometres(deviation, 2)} \u00b5m`),
+      h("div", {}, `x y z  ${at} mm`));
+    const right = x_px > this.canvas.clientWidth * 0.6;
+    this.tip.style.left = right ? "" : `${x_px + 16}px`;
+    this.tip.style.right = right ? `${this.canvas.clientWidth - x_px + 16}px` : "";
+    this.tip.style.top = `${Math.max(4, y_px - 20)}px`;
+  }
+
+  private fit(paper_px?: number): void {
+    const width = paper_px ?? this.element.clientWidth;
+    const height = paper_px ? 360 : this.element.clientHeight;
+    if (!this.renderer || width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(paper_px ? 2 : devicePixelRatio);
+    this.renderer.setSize(width, height, false);
+    // The whole cloud, the legend's strip kept free of it.
+    const half = this.cloud.radius_mm * 0.92;
+    const aspect = width / height;
+    const shift = half * aspect * 0.06;
+    Object.assign(this.camera, aspect > 1.2
+      ? { left: -half * aspect + shift, right: half * aspect + shift, top: half, bottom: -half }
+      : { left: -half * 1.2, right: half * 1.2, top: (half * 1.2) / aspect, bottom: (-half * 1.2) / aspect });
+    this.camera.near = 0.01;
+    this.camera.far = this.cloud.radius_mm * 12;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** One frame, however often it was asked for. */
+  private ask(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.draw();
+    });
+  }
+
+  private draw(): void {
+    this.renderer?.render(this.scene, this.camera);
+    this.drawAxes();
+    // For whoever needs to know how it is turned, tests among them.
+    this.element.dataset["camera"] = this.camera.position.toArray().map((value) => value.toFixed(3)).join(" ");
+  }
+
+  private drawAxes(): void {
+    const parts: [number, SVGElement[]][] = ["X", "Y", "Z"].map((name, i) => {
+      const tip = new Vector3().setComponent(i, 1).applyQuaternion(this.camera.quaternion.clone().invert());
+      const line = svg("line", { x1: 0, y1: 0, x2: tip.x * 26, y2: -tip.y * 26 });
+      return [tip.z, [line, svg("text", { x: tip.x * 35, y: -tip.y * 35 }, name)]];
+    });
+    parts.sort((a, b) => a[0] - b[0]);
+    this.axes.replaceChildren(...parts.flatMap(([, elements]) => elements));
+  }
+}

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Documents to draw pages from: measurements of the benchmark surface (Fountas 2017, eq. 14) with errors made by formula.
+
+/** Park and Miller's generator: the same numbers on every machine. */
+export class Random {
+    constructor(seed) {
+        this.state = seed;
+    }
+    uniform() {
+        this.state = (this.state * 48271) % 2147483647;
+        return this.state / 2147483647;
+    }
+    normal() {
+        return Math.sqrt(-2 * Math.log(this.uniform())) * Math.cos(2 * Math.PI * this.uniform());
+    }
+}
+
+/** Eq. 14: position and unit normal (towards +Z) at u, v. */
+export function benchmarkSurface(u, v) {
+    const at = [-94.4 + 88.9 * v + 5.6 * v * v, -131.3 * u + 28.1 * u * u,
+        5.9 * (u * u * v * v + u * u * v) - 3.9 * v * v * u + 76.2 * u * u + 6.7 * v * v - 27.3 * u * v - 50.8 * u + 25 * v + 12.1];
+    const x_v = 88.9 + 11.2 * v;
+    const y_u = -131.3 + 56.2 * u;
+    const z_u = 5.9 * (2 * u * v * v + 2 * u * v) - 3.9 * v * v + 152.4 * u - 27.3 * v - 50.8;
+    const z_v = 5.9 * (2 * u * u * v + u * u) - 7.8 * v * u + 13.4 * v - 27.3 * u + 25;
+    const normal = [-z_v / x_v, -z_u / y_u, 1];
+    const length = Math.hypot(...normal);
+    return { at, normal: normal.map((n) => n / length) };
+}
+
+const parameterOfX = (x) => (-88.9 + Math.sqrt(88.9 ** 2 + 4 * 5.6 * (94.4 + x))) / (2 * 5.6);
+const parameterOfY = (y) => (131.3 - Math.sqrt(131.3 ** 2 + 4 * 28.1 * y)) / (2 * 28.1);
+
+/** Scallops of a 4.9 mm step-over, a slow form error, noise: mm. */
+function error(u, v, random) {
+    const scallop = 0.0042 * (Math.abs(Math.sin((Math.PI * 103.2 * u) / 4.9)) - 0.6);
+    const form = 0.004 * Math.sin(5 * v + 2) * Math.cos(3.2 * u) + 0.0035 * (v - 0.5) ** 2 * 4;
+    return scallop + form + 0.0006 * random.normal();
+}
+
+/** As inspect's DeviationStatistics. */
+export function statistics(values) {
+    const n = values.length;
+    const mean = values.reduce((sum, d) => sum + d, 0) / n;
+    const square = values.reduce((sum, d) => sum + d * d, 0) / n;
+    return {
+        count: n, min_mm: Math.min(...values), max_mm: Math.max(...values), mean_mm: mean, rms_mm: Math.sqrt(square),
+        standard_deviation_mm: Math.sqrt((square - mean * mean) * n / (n - 1)), profile_mm: 2 * Math.max(...values.map(Math.abs)),
+    };
+}
+
+const limits = [-0.01, 0.01];
+
+function decision(verdict, reason, values) {
+    return {
+        verdict, reason, rule: "ISO 14253-1:2017, 95 %", lower_limit_mm: limits[0], upper_limit_mm: limits[1],
+        uncertainty: { standard_mm: 0.0008, stated: true, source: "Stated by the user." },
+        least_conforming_probability: verdict === "reject" ? 0.0001 : 0.71,
+        points_outside: values.filter((d) => d < limits[0] || d > limits[1]).length,
+    };
+}
+
+function evaluation(values, verdict, reason) {
+    const bin_width_mm = 0.0005;
+    const low_mm = Math.floor(Math.min(...values) / bin_width_mm) * bin_width_mm;
+    const counts = new Array(Math.floor((Math.max(...values) - low_mm) / bin_width_mm) + 1).fill(0);
+    for (const value of values) ++counts[Math.min(counts.length - 1, Math.floor((value - low_mm) / bin_width_mm))];
+    return { ...statistics(values), beyond_edge: 0, outliers: 0, histogram: { low_mm, bin_width_mm, counts }, decision: decision(verdict, reason, values) };
+}
+
+function section(x, random) {
+    const v = parameterOfX(x);
+    const curve = { arc_length_mm: [], deviation_mm: [] };
+    let arc = 0;
+    let last = null;
+    for (let y = -0.5; y > -103; y -= 0.5) {
+        const u = parameterOfY(y);
+        const { at } = benchmarkSurface(u, v);
+        if (last) arc += Math.hypot(...at.map((c, i) => c - last[i]));
+        last = at;
+        curve.arc_length_mm.push(arc);
+        curve.deviation_mm.push(error(u, v, random));
+    }
+    return { label: `X=${x}`, axis: "X", position_mm: x, length_mm: arc, beyond_edge: 0, deviation: statistics(curve.deviation_mm), curve };
+}
+
+function map(rows, columns, random) {
+    const out = { x_mm: [], y_mm: [], z_mm: [], normal_x: [], normal_y: [], normal_z: [], deviation_mm: [], datum_deviation_mm: [] };
+    for (let i = 0; i < rows; ++i) {
+        for (let j = 0; j < columns; ++j) {
+            const [u, v] = [i / (rows - 1), j / (columns - 1)];
+            const { at, normal } = benchmarkSurface(u, v);
+            const deviation = error(u, v, random);
+            ["x_mm", "y_mm", "z_mm"].forEach((key, k) => out[key].push(at[k]));
+            ["normal_x", "normal_y", "normal_z"].forEach((key, k) => out[key].push(normal[k]));
+            out.deviation_mm.push(deviation);
+            out.datum_deviation_mm.push(deviation + 0.004 + 0.00005 * at[1]);
+        }
+    }
+    return { ...out, best_fit_deviation_mm: out.deviation_mm };
+}
+
+const alignment = {
+    fit: "least-squares", rotation_vector_rad: [-0.00012, 0.00031, 0], translation_mm: [0.0124, -0.0087, 0.0041],
+    termination: "converged", iterations: 4, coarse_iterations: 7, points: 12000, beyond_edge: 0, start_rms_mm: 0.1212, rms_mm: 0.00288, minimax_mm: 0.00958,
+    locked: ["rz"], condition: 312.4, weakly_determined: ["tx", "ty"],
+    standard_deviation: { tx_mm: 0.0011, ty_mm: 0.0009, tz_mm: 0.00004, rx_rad: 0.0000011, ry_rad: 0.0000012, rz_rad: 0 },
+};
+
+/** A report as `cusp inspect` writes it, with everything the page can show. */
+export function inspectionSample({ rows = 100, columns = 120, seed = 7 } = {}) {
+    const random = new Random(seed);
+    const points = map(rows, columns, random);
+    const sections = [-5, -30, -60, -90].map((x) => section(x, random));
+    sections[0].scallops = { count: 21, planned_count: 21, mean_spacing_mm: 4.93, planned_step_over_mm: 4.9, mean_height_mm: 0.0041, max_height_mm: 0.0052 };
+    const largest = points.deviation_mm.map((d, i) => [Math.abs(d), i]).sort((a, b) => b[0] - a[0]).slice(0, 10).map(([, i]) => i);
+    const best = evaluation(points.deviation_mm, "undecided", "The largest deviation lies closer to the upper limit than its uncertainty allows.");
+    return {
+        schema: 1, command: "inspect", version: "0.1.0", title: "Sculptured benchmark part", points_file: "part-17.csv", nominal_file: "surface.toml",
+        points: points.x_mm.length,
+        measured: { format: "csv", mm_per_unit: 1, unit_stated: false, kind: "centre", kind_source: "flag", probe_radius_mm: 1 },
+        alignment, judged: "best-fit", deviation: best, best_fit_deviation: best,
+        datum_deviation: evaluation(points.datum_deviation_mm, "reject", "133 points lie beyond the upper limit."),
+        outlier_rule: { factor: 5, floor_mm: 0.0001 }, sections, decision: best.decision, map: points,
+        worst: largest.map((i) => ({ point: i, x_mm: points.x_mm[i], y_mm: points.y_mm[i], z_mm: points.z_mm[i], deviation_mm: points.deviation_mm[i] })),
+        notes: ["Sliding along the surface is weakly determined: x and y are known to about 1 \u00b5m only."],
+    };
+}
