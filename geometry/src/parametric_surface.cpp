@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// Cells in a box tree, nearest first; Newton where the distance is convex, branch and bound where it is not.
+#include "box_newton.hpp"
+#include "box_tree.hpp"
+#include "exact_search.hpp"
+#include "patch_cells.hpp"
+
+#include <cusp/geometry/parametric_surface.hpp>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cusp::geometry {
+
+using detail::PatchCell;
+using detail::PatchFoot;
+
+namespace {
+
+/// Feet of one place on several faces differ by rounding, and by the gaps between faces as CAD systems leave them.
+constexpr double same_place_mm = 1e-6;
+/// How far off its normal a query may stand and still count as standing on it.
+constexpr double along_normal_mm = 1e-9;
+
+/// A patch in the coordinates of the index, and where it belongs.
+struct IndexedPatch {
+    BezierPatch patch;
+    std::size_t face;
+    std::size_t in_face;
+};
+
+struct Nearest {
+    PatchFoot foot;
+    std::size_t patch = 0;
+};
+
+}  // namespace
+
+class ParametricSurface::Index {
+public:
+    explicit Index(std::vector<SurfaceFace> faces) : faces_(std::move(faces)) {
+        for (const SurfaceFace& face : faces_) {
+            for (const BezierPatch& patch : face.patches()) {
+                for (const BezierPatch::Vector4& point : patch.net()) {
+                    bounds_.extend(patch.origin() + point.head<3>() / point[3]);
+                }
+            }
+        }
+        origin_ = bounds_.center();
+        for (std::size_t f = 0; f < faces_.size(); ++f) addFace(f);
+        std::vector<Eigen::AlignedBox3d> boxes;
+        boxes.reserve(cells_.size());
+        for (const PatchCell& cell : cells_) boxes.push_back(cell.hull);
+        tree_ = detail::BoxTree(boxes);
+    }
+
+    [[nodiscard]] const std::vector<SurfaceFace>& faces() const { return faces_; }
+    [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+
+    /// `limit_squared`: a squared distance that is known to be reached.
+    [[nodiscard]] Footpoint closest(const Vector3& query, double limit_squared) const {
+        const Vector3 local = query - origin_;
+        Nearest best;
+        best.foot.squared_mm2 = limit_squared;
+        const auto limit = [&] { return best.foot.squared_mm2; };
+        tree_.visitNear(local, limit, [&](std::size_t c) {
+            searchCell(cells_[c], local, best.foot.squared_mm2, [&](const PatchFoot& foot) {
+                best.foot = foot;
+                best.patch = cells_[c].patch;
+                return foot.squared_mm2;
+            });
+        });
+        return footpointOf(best, local);
+    }
+
+    /// A bound of the squared distance from an earlier answer, rounded up so that the same answer still passes.
+    [[nodiscard]] double boundFrom(const Footpoint& earlier, const Vector3& query) const {
+        const bool usable = earlier.face >= 0 && static_cast<std::size_t>(earlier.face) < faces_.size() &&
+                            std::isfinite(earlier.u) && std::isfinite(earlier.v);
+        if (!usable) return std::numeric_limits<double>::infinity();
+        const SurfaceFace& face = faces_[static_cast<std::size_t>(earlier.face)];
+        const double distance = (face.evaluate(earlier.u, earlier.v).position - query).norm();
+        return (distance + same_place_mm) * (distance + same_place_mm);
+    }
+
+private:
+    void addFace(std::size_t f) {
+        const std::vector<BezierPatch>& patches = faces_[f].patches();
+        for (std::size_t i = 0; i < patches.size(); ++i) {
+            const BezierPatch about = patches[i].about(origin_);
+            patches_.push_back({BezierPatch(about.degreeU(), about.degreeV(), about.net(), Vector3::Zero()), f, i});
+            detail::cutIntoCells(patches_.back().patch, static_cast<std::uint32_t>(patches_.size() - 1), cells_);
+        }
+    }
+
+    /// Calls `take` with feet on the cell that are nearer than the limit, which `take` returns anew.
+    template <class Take>
+    void searchCell(const PatchCell& cell, const Vector3& local, double limit_squared, Take take) const {
+        if (cell.bounds.squaredDistance(local) > limit_squared) return;
+        const BezierPatch& patch = patches_[cell.patch].patch;
+        if ((local - cell.bounds.center).norm() < cell.bounds.convex_reach_mm) {
+            const PatchFoot foot = detail::newtonInBox(patch, cell.box, local, cell.box.middleU(), cell.box.middleV());
+            if (foot.squared_mm2 < limit_squared) limit_squared = take(foot);
+            if (foot.converged) return;
+        }
+        detail::searchExactly(patch, cell.box, local, limit_squared, take);
+    }
+
+    [[nodiscard]] Footpoint footpointOf(const Nearest& best, const Vector3& local) const {
+        const IndexedPatch& patch = patches_[best.patch];
+        const SurfaceFace& face = faces_[patch.face];
+        const auto [u, v] = face.faceParameters(patch.in_face, best.foot.u, best.foot.v);
+        Footpoint out;
+        out.face = static_cast<std::int32_t>(patch.face);
+        out.u = u;
+        out.v = v;
+        out.position = origin_ + best.foot.point.position;
+        out.normal = face.outwardSign() * crossNormal(best.foot.point);
+        if (out.normal.isZero()) out.normal = face.normal(u, v);
+        const Vector3 offset = local - best.foot.point.position;
+        const double along = offset.dot(out.normal);
+        out.distance_mm = std::copysign(offset.norm(), along);
+        if ((offset - along * out.normal).norm() > along_normal_mm + 1e-9 * offset.norm()) {
+            settleAtEdge(best, local, out);
+        }
+        return out;
+    }
+
+    /// The query does not stand on the normal: the foot is at an edge. Faces that meet there decide the sign together.
+    void settleAtEdge(const Nearest& best, const Vector3& local, Footpoint& out) const {
+        const Vector3 offset = local - best.foot.point.position;
+        std::vector<Vector3> normals{out.normal};
+        const double reach = offset.norm() + same_place_mm;
+        tree_.visitNear(
+            local, [&] { return reach * reach; },
+            [&](std::size_t c) {
+                PatchFoot near;
+                near.squared_mm2 = reach * reach;
+                searchCell(cells_[c], local, reach * reach, [&](const PatchFoot& foot) {
+                    near = foot;
+                    return foot.squared_mm2;
+                });
+                if (!near.point.du.isZero() &&
+                    (near.point.position - best.foot.point.position).norm() <= same_place_mm) {
+                    const double sign = faces_[patches_[cells_[c].patch].face].outwardSign();
+                    normals.push_back(sign * crossNormal(near.point));
+                }
+            });
+        for (const Vector3& normal : normals) {
+            if (std::abs(offset.dot(normal)) > std::abs(offset.dot(out.normal))) out.normal = normal;
+        }
+        out.distance_mm = std::copysign(offset.norm(), offset.dot(out.normal));
+        out.on_boundary = leavesSpan(offset, normals);
+    }
+
+    /// Whether the offset has a part that no combination of the normals explains: then the shape ends at the foot.
+    static bool leavesSpan(const Vector3& offset, const std::vector<Vector3>& normals) {
+        // Faces that meet smoothly have one normal; beyond this angle two normals span a plane.
+        constexpr double sharp_rad = 1e-3;
+        std::vector<Vector3> basis;
+        for (const Vector3& normal : normals) {
+            Vector3 rest = normal;
+            for (const Vector3& axis : basis) rest -= rest.dot(axis) * axis;
+            if (rest.norm() > sharp_rad) basis.push_back(rest.normalized());
+        }
+        Vector3 rest = offset;
+        for (const Vector3& axis : basis) rest -= rest.dot(axis) * axis;
+        return rest.norm() > along_normal_mm + 1e-9 * offset.norm();
+    }
+
+    std::vector<SurfaceFace> faces_;
+    Eigen::AlignedBox3d bounds_;
+    /// The index works about this point, so that a shape far from the origin of its frame loses no digits.
+    Vector3 origin_ = Vector3::Zero();
+    std::vector<IndexedPatch> patches_;
+    std::vector<PatchCell> cells_;
+    detail::BoxTree tree_;
+};
+
+ParametricSurface::ParametricSurface(std::vector<SurfaceFace> faces)
+    : index_(std::make_unique<const Index>(std::move(faces))) {}
+ParametricSurface::ParametricSurface(ParametricSurface&&) noexcept = default;
+ParametricSurface& ParametricSurface::operator=(ParametricSurface&&) noexcept = default;
+ParametricSurface::~ParametricSurface() = default;
+
+Footpoint ParametricSurface::closest(const Vector3& query) const {
+    return index_->closest(query, std::numeric_limits<double>::infinity());
+}
+
+void ParametricSurface::closest(std::span<const Vector3> queries, std::span<Footpoint> footpoints, bool warm) const {
+    assert(queries.size() == footpoints.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 256), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const double limit =
+                warm ? index_->boundFrom(footpoints[i], queries[i]) : std::numeric_limits<double>::infinity();
+            footpoints[i] = index_->closest(queries[i], limit);
+        }
+    });
+}
+
+Eigen::AlignedBox3d ParametricSurface::bounds() const { return index_->bounds(); }
+
+const std::vector<SurfaceFace>& ParametricSurface::faces() const { return index_->faces(); }
+
+}  // namespace cusp::geometry
