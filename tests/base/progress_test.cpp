@@ -18,6 +18,7 @@ TEST(Progress, CountsFromManyThreads) {
     progress.begin(40000, "work");
     {
         std::vector<std::jthread> threads;
+        threads.reserve(4);
         for (int i = 0; i < 4; ++i)
             threads.emplace_back([&progress] {
                 for (int k = 0; k < 5000; ++k) progress.advance(2);

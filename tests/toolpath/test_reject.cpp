@@ -16,7 +16,7 @@ std::string expectedProblems(const std::string& text) {
     const std::string mark = "$$ expect: ";
     std::istringstream lines(text);
     std::string expected;
-    for (std::string line; std::getline(lines, line) && line.rfind(mark, 0) == 0;) {
+    for (std::string line; std::getline(lines, line) && line.starts_with(mark);) {
         expected += line.substr(mark.size()) + "\n";
     }
     return expected;

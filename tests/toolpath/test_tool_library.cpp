@@ -70,7 +70,7 @@ TEST(ToolLibrary, EveryRejectGivesItsExactProblems) {
         const std::string text = fileText(entry.path());
         std::istringstream lines(text);
         std::string expected;
-        for (std::string line; std::getline(lines, line) && line.rfind(mark, 0) == 0;) {
+        for (std::string line; std::getline(lines, line) && line.starts_with(mark);) {
             expected += line.substr(mark.size()) + "\n";
         }
         const base::Result<ToolLibrary> library = readToolLibrary(text, "t.toml");

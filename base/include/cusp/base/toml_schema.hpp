@@ -140,7 +140,8 @@ public:
 
     /// Tables under names the user chooses: `[key.NAME]`. Order is the order of the names.
     template <class U>
-    Section& named(std::string key, std::map<std::string, U> T::* member, Section<U> section, FieldRules rules = {}) {
+    Section& named(std::string key, std::map<std::string, U> T::* member, const Section<U>& section,
+                   FieldRules rules = {}) {
         FieldInfo info = nestedInfo(std::move(key), section.doc(), "named tables", rules, section.describe());
         fields_.push_back({info,
                            [member, section, info](T& out, const TomlNode& node, Diagnostics& report) {
