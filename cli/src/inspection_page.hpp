@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// An inspection as a web page: the report's JSON with the points and curves that JSON leaves out.
+#pragma once
+
+#include <cusp/base/json_report.hpp>
+#include <cusp/inspect/inspection_report.hpp>
+
+#include <cstddef>
+#include <string>
+
+namespace cusp::cli {
+
+/// A browser turns this many points without effort, and the page stays below a few megabytes.
+inline constexpr std::size_t points_on_map = 60'000;
+
+/// The document of the page "inspection" (pages/web/pages/inspection_input.ts). A cloud of more than `map_points` is thinned
+/// to points at equal steps and the largest deviations; the page says so.
+[[nodiscard]] base::Json inspectionDocument(const inspect::InspectionReport& report,
+                                            std::size_t map_points = points_on_map);
+
+/// report.html.
+[[nodiscard]] base::Result<std::string> inspectionPage(const inspect::InspectionReport& report);
+
+}  // namespace cusp::cli
