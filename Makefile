@@ -74,6 +74,7 @@ docs: ## Write the pages made from the schemas (docs/*.md), and the reference of
 	cmake --preset release
 	cmake --build --preset release --target cusp_cli -j$(JOBS)
 	build/release/bin/cusp schema machine-file > docs/machine-file.md
+	build/release/bin/cusp schema setup-file > docs/setup-file.md
 	build/release/bin/cusp schema post-job > docs/post-job.md
 	mkdir -p build/docs
 	doxygen docs/Doxyfile

@@ -8,6 +8,7 @@
 #include "machine_lookup.hpp"
 #include "post_text.hpp"
 #include "progress_bar.hpp"
+#include "setup_lookup.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/json_report.hpp>
@@ -17,6 +18,7 @@
 #include <cusp/post/writer/post_options.hpp>
 #include <cusp/post/writer/program_planner.hpp>
 #include <cusp/post/writer/sinumerik_writer.hpp>
+#include <cusp/post/writer/travel_check.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -39,6 +41,7 @@ struct Flags {
     std::string units;
     std::optional<std::string> program_name;
     std::optional<std::string> work_offset;
+    std::optional<std::string> setup;
     std::optional<double> spindle_rpm;
     std::optional<double> orientation_tolerance_deg;
     std::optional<double> pole_cone_deg;
@@ -60,6 +63,7 @@ base::Result<post::PostOptions> optionsOf(const Flags& flags) {
     }
     if (flags.program_name) job.post.program_name = *flags.program_name;
     if (flags.work_offset) job.post.work_offset = *flags.work_offset;
+    if (flags.setup) job.post.setup = *flags.setup;
     if (flags.spindle_rpm) job.post.spindle_rpm = *flags.spindle_rpm;
     if (flags.orientation_tolerance_deg)
         job.post.orientation_tolerance_rad = base::radFromDeg(*flags.orientation_tolerance_deg);
@@ -73,11 +77,34 @@ base::Result<post::PostOptions> optionsOf(const Flags& flags) {
     return job.post;
 }
 
-post::ProgramHead headOf(const Flags& flags, const post::PostOptions& options, const LoadedMachine& machine) {
+using Setup = std::optional<machine::SetupDefinition>;
+
+base::Result<Setup> setupOf(const post::PostOptions& options) {
+    if (options.setup.empty()) return Setup();
+    auto setup = loadSetup(options.setup);
+    if (!setup) return base::fail(std::move(setup).error());
+    return Setup(*std::move(setup));
+}
+
+post::ProgramHead headOf(const Flags& flags, const post::PostOptions& options, const LoadedMachine& machine,
+                         const Setup& setup) {
     return {options.program_name,
             options.work_offset,
             {"from " + fileNameOf(flags.cl_file) + " by cusp " + std::string(base::version()),
-             "machine: " + machine.file.machine.name, "X Y Z are the tool tip (TRAORI); linear travel not checked"}};
+             "machine: " + machine.file.machine.name,
+             "X Y Z are the tool tip (TRAORI); linear travel " +
+                 (setup ? "kept in the setup: " + setup->name : std::string("not checked"))}};
+}
+
+const std::string& workOffsetOf(const post::PostOptions& options, const LoadedMachine& machine) {
+    return options.work_offset.empty() ? machine.file.control.work_offset : options.work_offset;
+}
+
+void tellTravel(post::TravelCheck& travel, PostOutcome& outcome) {
+    travel.finish();
+    outcome.report.append(travel.report());
+    outcome.summary.limit_violations += travel.summary().violations;
+    outcome.travel = travel.summary();
 }
 
 /// Keeps the first failure of a write until the end: the writer's steps have no way to answer.
@@ -119,6 +146,8 @@ ExitCode runPost(const Flags& flags) {
     }
     auto machine = loadMachine(flags.machine);
     if (!machine) return failWith(machine.error());
+    const auto setup = setupOf(*options);
+    if (!setup) return failWith(setup.error());
     auto input = ClInput::open(flags.cl_file, clReaderOptions(flags.dialect, flags.units, options->strict));
     if (!input) return failWith(input.error());
     auto target = base::OutputTarget::open(flags.output);
@@ -128,8 +157,11 @@ ExitCode runPost(const Flags& flags) {
     PostOutcome outcome{.cl_file = flags.cl_file, .output = flags.output, .machine = *machine};
     base::Diagnostics planning;
     post::SinumerikWriter writer([&file](std::string_view text) { file.write(text); }, machine->file,
-                                 headOf(flags, *options, *machine));
-    post::ProgramPlanner planner(machine->file, machine->model, *options, flags.cl_file, writer, planning);
+                                 headOf(flags, *options, *machine, *setup));
+    std::optional<post::TravelCheck> travel;
+    if (*setup) travel.emplace(machine->model, **setup, workOffsetOf(*options, *machine), flags.cl_file, writer);
+    post::NcSink& steps = travel ? static_cast<post::NcSink&>(*travel) : writer;
+    post::ProgramPlanner planner(machine->file, machine->model, *options, flags.cl_file, steps, planning);
     ProgressBar bar("posting");
     std::uint64_t records = 0;
     for (toolpath::ClRecord record; input->reader().next(record);) {
@@ -141,6 +173,7 @@ ExitCode runPost(const Flags& flags) {
     outcome.blocks = writer.finish();
     outcome.report.append(input->reader().report());
     outcome.report.append(planning);
+    if (travel) tellTravel(*travel, outcome);
     outcome.dialect = toolpath::dialectName(input->reader().dialect());
     outcome.mm_per_unit = input->reader().mmPerUnit();
     return finish(flags, outcome, file);
@@ -163,6 +196,9 @@ void addPostCommand(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"mm", "inch"}));
     post->add_option("--name", flags->program_name, "Program name, at most 24 letters, digits, underscores.");
     post->add_option("--work-offset", flags->work_offset, "Work offset, e.g. G54 or G505.");
+    post->add_option("--setup", flags->setup,
+                     "Setup file: where the workpiece lies in the machine and how long the tools are. Linear travel is "
+                     "checked with it.");
     post->add_option("--spindle-rpm", flags->spindle_rpm, "Spindle speed, clockwise, until the CL file gives one.");
     post->add_option(
         "--orientation-tolerance-deg", flags->orientation_tolerance_deg,

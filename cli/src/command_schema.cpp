@@ -6,6 +6,7 @@
 #include "job_file.hpp"
 
 #include <cusp/base/schema_field.hpp>
+#include <cusp/machine/setup_definition.hpp>
 #include <cusp/post/control/control_definition.hpp>
 
 #include <memory>
@@ -34,17 +35,31 @@ std::string postJobPage() {
         postJobSection().describe());
 }
 
+std::string setupFilePage() {
+    return base::schemaMarkdown(
+        "Setup files",
+        "A setup says where the workpiece lies in the machine and how long the tools are; with it `cusp post --setup` "
+        "checks the travel of the linear axes. The unit of a number is the end of its key; a key that is not listed here "
+        "is an error.",
+        machine::setupSection().describe());
+}
+
+std::string pageOf(const std::string& name) {
+    if (name == "machine-file") return machineFilePage();
+    return name == "setup-file" ? setupFilePage() : postJobPage();
+}
+
 }  // namespace
 
 void addSchemaCommand(CLI::App& app, Action& action) {
     CLI::App* schema = app.add_subcommand("schema", "Prints the documentation page (Markdown) of a file cusp reads.");
     const auto page = std::make_shared<std::string>();
-    schema->add_option("PAGE", *page, "machine-file or post-job")
+    schema->add_option("PAGE", *page, "machine-file, setup-file or post-job")
         ->required()
-        ->check(CLI::IsMember({"machine-file", "post-job"}));
+        ->check(CLI::IsMember({"machine-file", "setup-file", "post-job"}));
     schema->callback([page, &action] {
         action = [page] {
-            say(*page == "machine-file" ? machineFilePage() : postJobPage());
+            say(pageOf(*page));
             return ExitCode::Done;
         };
     });

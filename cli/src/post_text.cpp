@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace cusp::cli {
 
 namespace {
@@ -43,9 +45,26 @@ std::string rotaryText(const PostOutcome& outcome) {
     return out;
 }
 
+std::string travelText(const PostOutcome& outcome) {
+    if (!outcome.travel)
+        return "  linear travel not checked: nothing says where the workpiece lies in the machine (--setup)\n";
+    if (outcome.travel->moves == 0) return "  linear travel: nothing moves\n";
+    std::string out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& range = outcome.machine.model.linearRange(i);
+        // Rounded first, so that nothing is "-0.000".
+        const auto rounded = [](double mm) { return std::round(mm * 1e3) / 1e3 + 0.0; };
+        const auto& [low, high] = outcome.travel->range_mm[i];
+        out += fmt::format("  {} moves between {:.3f} mm and {:.3f} mm, limits {:.6g} mm and {:.6g} mm\n",
+                           outcome.machine.model.linearNames()[i], rounded(low), rounded(high), range.min, range.max);
+    }
+    return out;
+}
+
 bool isLimit(const base::Diagnostic& diagnostic) {
     return diagnostic.code == "kinematics.axis-limit" || diagnostic.code == "kinematics.axis-unreachable" ||
            diagnostic.code == "kinematics.between-axis" || diagnostic.code == "kinematics.rewind" ||
+           diagnostic.code == "kinematics.linear-limit" || diagnostic.code == "kinematics.linear-singular" ||
            diagnostic.code == "post.spindle-limit";
 }
 
@@ -70,7 +89,7 @@ std::string toText(const PostOutcome& outcome) {
         return out + fmt::format("  NO PROGRAM WRITTEN: {}{}\n", plural(outcome.report.errorCount(), "error"), limits);
     }
     out += rotaryText(outcome);
-    out += "  linear travel not checked: nothing says where the workpiece lies in the machine\n";
+    out += travelText(outcome);
     if (outcome.report.warningCount() > 0)
         out += "  " + plural(outcome.report.warningCount(), "warning") + ", see above\n";
     return out + fmt::format("  {} → {}\n", plural(outcome.blocks, "block"), outcome.output);
@@ -100,7 +119,11 @@ base::Json toJson(const PostOutcome& outcome) {
     for (std::size_t i = 0; i < outcome.machine.model.rotaryCount(); ++i)
         out["rotary_range_deg"][outcome.machine.model.rotaryNames()[i]] = {
             base::degFromRad(summary.rotary_range_rad[i].first), base::degFromRad(summary.rotary_range_rad[i].second)};
-    out["linear_travel"] = "not checked";
+    out["linear_travel"] = outcome.travel ? "checked" : "not checked";
+    out["linear_range_mm"] = base::Json::object();
+    for (std::size_t i = 0; outcome.travel && outcome.travel->moves > 0 && i < 3; ++i)
+        out["linear_range_mm"][outcome.machine.model.linearNames()[i]] = {outcome.travel->range_mm[i].first,
+                                                                          outcome.travel->range_mm[i].second};
     out["diagnostics"] = base::diagnosticsToJson(outcome.report);
     return out;
 }

@@ -7,9 +7,11 @@
 
 #include <cusp/base/diagnostics.hpp>
 #include <cusp/base/json_report.hpp>
+#include <cusp/kinematics/linear_travel.hpp>
 #include <cusp/post/writer/program_planner.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace cusp::cli {
@@ -20,6 +22,7 @@ struct PostOutcome {
     const LoadedMachine& machine;
     base::Diagnostics report = base::Diagnostics();
     post::PostSummary summary = {};
+    std::optional<kinematics::TravelSummary> travel = {};  ///< with a setup only
     std::size_t blocks = 0;
     std::string dialect = {};
     double mm_per_unit = 1.0;

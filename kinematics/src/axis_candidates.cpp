@@ -3,7 +3,7 @@
 // The planner's two ends: which positions a point can have, and what is handed out and reported of the one chosen.
 #include <cusp/kinematics/axis_planner.hpp>
 
-#include "degree_text.hpp"
+#include "message_text.hpp"
 
 #include <cusp/kinematics/angles.hpp>
 

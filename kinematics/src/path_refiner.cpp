@@ -3,7 +3,7 @@
 // Halving a move until the rotary axes, turning linearly, keep the tool axis near its great circle.
 #include <cusp/kinematics/path_refiner.hpp>
 
-#include "degree_text.hpp"
+#include "message_text.hpp"
 
 #include <cusp/kinematics/angles.hpp>
 

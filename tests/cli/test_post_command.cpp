@@ -118,5 +118,34 @@ TEST_F(PostCommand, AFullDeviceIsNotSuccess) {
     EXPECT_EQ(run({"post", cl, "-m", "fooke-endura-ca", "-o", "/dev/full"}).exit_code, 4);
 }
 
+TEST_F(PostCommand, ASetupMakesLinearTravelKnown) {
+    const std::string cl = write("part.cls", small_cl);
+    write("tools.toml", "schema = 1\nname = \"tools\"\n[[tool]]\nname = \"BALL_6\"\nshape = \"ball\"\ndiameter_mm = 6\n"
+                        "cutting_height_mm = 20\ngauge_length_mm = 110\n");
+    const std::string head = "schema = 1\nname = \"plate\"\ntool_library = \"tools.toml\"\n[work_offset.G54]\n";
+    const std::string good = write("setup.toml", head + "origin_mm = [1000, 0, -700]\n");
+    const auto kept = run({"post", cl, "-m", "fooke-endura-ca", "-o", path("A.MPF"), "--setup", good});
+    EXPECT_EQ(kept.exit_code, 0) << kept.errors;
+    EXPECT_NE(kept.output.find("  X moves between 1000.000 mm and "), std::string::npos) << kept.output;
+    EXPECT_EQ(kept.output.find("not checked"), std::string::npos) << kept.output;
+    EXPECT_NE(read("A.MPF").find("; X Y Z are the tool tip (TRAORI); linear travel kept in the setup: plate\n"),
+              std::string::npos);
+    const auto json = nlohmann::json::parse(
+        run({"post", cl, "-m", "fooke-endura-ca", "-o", path("A.MPF"), "--setup", good, "--json"}).output);
+    EXPECT_EQ(json["linear_travel"], "checked");
+    EXPECT_EQ(json["linear_range_mm"]["X"][0], 1000.0);
+
+    const std::string low = write("low.toml", head + "origin_mm = [1000, 0, -2000]\n");
+    const auto beyond = run({"post", cl, "-m", "fooke-endura-ca", "-o", path("B.MPF"), "--setup", low});
+    EXPECT_EQ(beyond.exit_code, 1);
+    EXPECT_NE(beyond.errors.find("error: Z axis would need -1"), std::string::npos) << beyond.errors;
+    EXPECT_NE(beyond.errors.find("limit -1250 mm [kinematics.linear-limit]"), std::string::npos) << beyond.errors;
+    const std::string unknown = write("unknown.toml", head + "origin_mm = [1000, 0, x]\n");
+    EXPECT_EQ(run({"post", cl, "-m", "fooke-endura-ca", "-o", path("B.MPF"), "--setup", unknown}).exit_code, 3);
+    EXPECT_EQ(run({"post", cl, "-m", "fooke-endura-ca", "-o", path("B.MPF"), "--setup", path("none")}).exit_code, 4);
+    EXPECT_EQ(left(),
+              (std::vector<std::string>{"A.MPF", "low.toml", "part.cls", "setup.toml", "tools.toml", "unknown.toml"}));
+}
+
 }  // namespace
 }  // namespace cusp::cli

@@ -61,6 +61,9 @@ const base::Section<PostOptions>& postSection() {
             .field("spindle_rpm", &PostOptions::spindle_rpm,
                    "Spindle speed, clockwise, for CL files that give none before the first cut.", base::positive())
             .field("work_offset", &PostOptions::work_offset, "Work offset, e.g. G54. Empty: the machine file's.")
+            .field("setup", &PostOptions::setup,
+                   "Setup file, which says where the workpiece lies and how long the tools are. Empty: linear travel is "
+                   "not checked.")
             .field("orientation_tolerance_deg", &PostOptions::orientation_tolerance_rad,
                    "While cutting, how far the tool axis may leave the great circle between two points of the CL file; "
                    "where the rotary axes would swing it further, blocks are inserted.",

@@ -18,6 +18,8 @@ struct PostOptions {
     std::optional<double> spindle_rpm;
     /// Overrides the machine file's work offset ("G54", "G505").
     std::string work_offset;
+    /// Setup file: where the workpiece lies and how long the tools are. Empty: linear travel is not checked.
+    std::string setup;
     /// How far the tool axis may leave the great circle between two points of the CL file while cutting.
     double orientation_tolerance_rad = base::radFromDeg(0.05);
     /// Where rotary limits force a change of branch in a cut, it is made this close to the pole at most, and told; the tool
