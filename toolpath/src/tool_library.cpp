@@ -167,13 +167,13 @@ geometry::Cutter Tool::cutter() const {
     return detail::millShape(diameter_mm, radius_mm, cutting_height_mm, taper_rad.value_or(0.0), 0.0);
 }
 
-const Tool* ToolLibrary::findNumber(std::int64_t number) const {
-    const auto tool = std::find_if(tools.begin(), tools.end(), [&](const Tool& t) { return t.number == number; });
+const Tool* ToolLibrary::findNumber(std::int64_t wanted) const {
+    const auto tool = std::find_if(tools.begin(), tools.end(), [&](const Tool& t) { return t.number == wanted; });
     return tool == tools.end() ? nullptr : &*tool;
 }
 
-const Tool* ToolLibrary::findName(std::string_view name) const {
-    const auto tool = std::find_if(tools.begin(), tools.end(), [&](const Tool& t) { return t.name == name; });
+const Tool* ToolLibrary::findName(std::string_view wanted) const {
+    const auto tool = std::find_if(tools.begin(), tools.end(), [&](const Tool& t) { return t.name == wanted; });
     return tool == tools.end() ? nullptr : &*tool;
 }
 

@@ -45,8 +45,8 @@ struct ToolLibrary {
     std::vector<Tool> tools;
 
     /// Null when the library has no such tool.
-    [[nodiscard]] const Tool* findNumber(std::int64_t number) const;
-    [[nodiscard]] const Tool* findName(std::string_view name) const;
+    [[nodiscard]] const Tool* findNumber(std::int64_t wanted) const;
+    [[nodiscard]] const Tool* findName(std::string_view wanted) const;
 };
 
 /// The field table of a library file, with its checks: `tool.*` errors at the key they speak of.
