@@ -227,9 +227,12 @@ void Receiver::reset(bool keep) {
 }
 
 void Receiver::programFinished() {
-    // A drip feed that ends before all of it came (M30 amid the text) is finished too; the rest is not wanted.
-    if (transferOpen()) host_.abandon(false);
-    open_ = false;
+    // A drip feed that ends before all of it came (M30 amid the text) is finished too; the rest is not wanted. When all
+    // came, the commit that proves it may still be on its way.
+    if (transferOpen() && expected_ != program_.length) {
+        host_.abandon(false);
+        open_ = false;
+    }
     if (state_ == ReceiverState::Running) state_ = ReceiverState::Finished;
 }
 
