@@ -21,8 +21,14 @@ void Medium::carry(Direction direction, double arrival_s, Bytes unit, const std:
                 byte = static_cast<std::uint8_t>(byte ^ (1U << random_.below(8)));
             }
         }
+        double& in_order_s = last_arrival_s_[direction == Direction::ToControl ? 0 : 1];
         double when_s = arrival_s + random_.uniform(0.0, faults_.jitter_s);
-        if (copy > 0 || random_.chance(faults_.reordering)) when_s += random_.uniform(0.0, faults_.held_back_s);
+        if (copy > 0 || random_.chance(faults_.reordering)) {
+            when_s += random_.uniform(0.0, faults_.held_back_s);
+        } else if (faults_.jitter_s > 0.0) {
+            in_order_s = std::max(in_order_s, when_s);
+            when_s = in_order_s;
+        }
         if (faults_.stall.holds(when_s)) when_s = faults_.stall.to_s;
         timeline_.at(when_s, [arrive, bytes = std::move(bytes)] { arrive(bytes); });
     }

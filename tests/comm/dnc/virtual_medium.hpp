@@ -62,9 +62,9 @@ struct Faults {
     double corruption = 0.0;
     double reordering = 0.0;  ///< held back by up to `held_back_s`
     double held_back_s = 0.05;
-    double jitter_s = 0.0;
-    Window stall;      ///< nothing arrives; it comes afterwards
-    Window half_open;  ///< one direction loses everything
+    double jitter_s = 0.0;  ///< of the delay; what is delayed keeps its order
+    Window stall;           ///< nothing arrives; it comes afterwards
+    Window half_open;       ///< one direction loses everything
     Direction half_open_direction = Direction::ToControl;
 };
 
@@ -93,6 +93,9 @@ protected:
     Timeline& timeline_;
     Faults faults_;
     base::Random random_;
+
+private:
+    double last_arrival_s_[2] = {0.0, 0.0};
 };
 
 struct StreamRates {
