@@ -52,7 +52,8 @@ BSplineForm hundredPatches() {
     for (int i = 0; i < count; ++i) {
         form.points.emplace_back();
         for (int j = 0; j < count; ++j) {
-            form.points.back().emplace_back(200.0 * i / (count - 1), 200.0 * j / (count - 1), random.uniform(-6.0, 6.0));
+            form.points.back().emplace_back(200.0 * i / (count - 1), 200.0 * j / (count - 1),
+                                            random.uniform(-6.0, 6.0));
         }
     }
     return form;

@@ -42,11 +42,10 @@ Handle(Geom_BSplineSurface) surfaceOf(const geometry::BSplineForm& form) {
     const Knots u(form.knots_u);
     const Knots v(form.knots_v);
     const auto count = [](const Knots& knots) { return static_cast<int>(knots.values.size()); };
-    return new Geom_BSplineSurface(poles, TColStd_Array1OfReal(u.values.front(), 1, count(u)),
-                                   TColStd_Array1OfReal(v.values.front(), 1, count(v)),
-                                   TColStd_Array1OfInteger(u.multiplicities.front(), 1, count(u)),
-                                   TColStd_Array1OfInteger(v.multiplicities.front(), 1, count(v)), form.degree_u,
-                                   form.degree_v);
+    return new Geom_BSplineSurface(
+        poles, TColStd_Array1OfReal(u.values.front(), 1, count(u)), TColStd_Array1OfReal(v.values.front(), 1, count(v)),
+        TColStd_Array1OfInteger(u.multiplicities.front(), 1, count(u)),
+        TColStd_Array1OfInteger(v.multiplicities.front(), 1, count(v)), form.degree_u, form.degree_v);
 }
 
 }  // namespace

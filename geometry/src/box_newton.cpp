@@ -92,15 +92,17 @@ PatchFoot newtonInBox(const BezierPatch& patch, const ParameterBox& box, const V
         const Step step =
             minimize(model, {box.low_u - foot.u, box.high_u - foot.u, box.low_v - foot.v, box.high_v - foot.v});
         const double length_mm = (step.u * foot.point.du + step.v * foot.point.dv).norm();
-        // Convergence is quadratic: behind a step of 1e-8 mm lies an error of its square. Rounding of the coordinates
-        // sets another floor.
-        const double floor_mm = 1e-8 + 1e-12 * foot.point.position.cwiseAbs().maxCoeff();
+        // Rounding of the coordinates sets a floor to what a step can improve, and a higher one to what the squared distance
+        // can tell apart.
+        const double size_mm = foot.point.position.cwiseAbs().maxCoeff() + std::sqrt(foot.squared_mm2);
+        const double floor_mm = 1e-10 + 1e-14 * size_mm;
+        const double noise_mm2 = 1e-15 * size_mm * std::sqrt(foot.squared_mm2);
         PatchFoot next;
         double fraction = 1.0;
         for (;; fraction *= 0.5) {
             next = footAt(patch, query, std::clamp(foot.u + fraction * step.u, box.low_u, box.high_u),
                           std::clamp(foot.v + fraction * step.v, box.low_v, box.high_v));
-            if (next.squared_mm2 <= foot.squared_mm2) break;
+            if (next.squared_mm2 <= foot.squared_mm2 + noise_mm2) break;
             if (fraction * length_mm <= floor_mm) {
                 foot.converged = true;
                 return foot;

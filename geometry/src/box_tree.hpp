@@ -5,6 +5,7 @@
 
 #include <cusp/geometry/frames.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,10 +21,10 @@ public:
     BoxTree() = default;
     explicit BoxTree(std::span<const Eigen::AlignedBox3d> boxes);
 
-    /// Calls `visit(index)` for the boxes that are not farther from the point than `limit()` says, near ones first.
-    /// `limit` returns a squared distance and may shrink from one call to the next.
-    template <class Limit, class Visit>
-    void visitNear(const Vector3& point, Limit limit, Visit visit) const {
+    /// Calls `visit(index)` for the boxes that are not farther from `place` (a point or a box) than `limit()` says, near ones
+    /// first. `limit` returns a squared distance and may shrink from one call to the next.
+    template <class Place, class Limit, class Visit>
+    void visitNear(const Place& place, Limit limit, Visit visit) const {
         if (nodes_.empty()) return;
         std::array<Pending, most_depth> stack;
         std::size_t open = 0;
@@ -31,8 +32,8 @@ public:
         while (true) {
             const Node& node = nodes_[here.node];
             if (node.second != 0) {
-                Pending near{here.node + 1, squaredDistance(nodes_[here.node + 1], point)};
-                Pending far{node.second, squaredDistance(nodes_[node.second], point)};
+                Pending near{here.node + 1, squaredDistance(nodes_[here.node + 1], place)};
+                Pending far{node.second, squaredDistance(nodes_[node.second], place)};
                 if (far.squared < near.squared) std::swap(near, far);
                 const double most = limit();
                 if (far.squared <= most) stack[open++] = far;
@@ -73,6 +74,16 @@ private:
             const double above = x - node.high[k];
             const double outside = below > above ? below : above;
             squared += outside > 0.0 ? outside * outside : 0.0;
+        }
+        return squared;
+    }
+
+    static double squaredDistance(const Node& node, const Eigen::AlignedBox3d& box) {
+        double squared = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<Eigen::Index>(k);
+            const double outside = std::max({node.low[k] - box.max()[axis], box.min()[axis] - node.high[k], 0.0});
+            squared += outside * outside;
         }
         return squared;
     }

@@ -81,6 +81,8 @@ PatchBounds boundPatch(const BezierPatch& patch) {
 
     PatchBounds out{};
     out.center = center.position;
+    out.du = center.du;
+    out.dv = center.dv;
     out.radius_mm = b.radius_mm;
     out.axes = axesOf(center);
     out.low.setConstant(std::numeric_limits<double>::infinity());
@@ -97,6 +99,10 @@ PatchBounds boundPatch(const BezierPatch& patch) {
     const double vv = w * (b.vv.space + 2.0 * b.v.weight * out.length_v_mm + b.vv.weight * b.radius_mm);
     const double uv =
         w * (b.uv.space + b.u.weight * out.length_v_mm + b.v.weight * out.length_u_mm + b.uv.weight * b.radius_mm);
+
+    out.duu_mm = uu;
+    out.duv_mm = uv;
+    out.dvv_mm = vv;
 
     const double size_u = center.du.norm();
     const double size_v = center.dv.norm();

@@ -9,7 +9,7 @@ namespace cusp::geometry::detail {
 namespace {
 
 /// Newton's method then starts within a few percent of the answer.
-constexpr double flat_enough = 0.2;
+constexpr double flat_enough = 0.1;
 constexpr int most_halvings = 12;
 
 Eigen::AlignedBox3d hullOf(const BezierPatch& patch) {

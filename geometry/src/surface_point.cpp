@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cusp::geometry {
@@ -41,9 +42,13 @@ TangentFrame tangentFrame(const SurfacePoint& point, const Vector3& normal) {
 Vector3 crossNormal(const SurfacePoint& point) {
     const Vector3 cross = point.du.cross(point.dv);
     const double size = cross.norm();
-    // Below rounding of the product the direction is noise.
+    const double size_u = point.du.norm();
+    const double size_v = point.dv.norm();
+    // Next to a pole one derivative is nothing but rounding, and so is the direction of the product.
+    constexpr double smallest_ratio = 1e-9;
     constexpr double smallest_sine = 1e-12;
-    if (!(size > smallest_sine * point.du.norm() * point.dv.norm()) || !(size > 0.0)) {
+    if (!(std::min(size_u, size_v) > smallest_ratio * std::max(size_u, size_v)) ||
+        !(size > smallest_sine * size_u * size_v)) {
         return Vector3::Zero();
     }
     return cross / size;

@@ -17,7 +17,7 @@ struct SurfacePoint {
     Vector3 dvv = Vector3::Zero();
 };
 
-/// Unit vector along du × dv; zero where the two are parallel or vanish (a pole).
+/// Unit vector along du × dv; zero where the two are parallel or one vanishes beside the other (a pole).
 [[nodiscard]] Vector3 crossNormal(const SurfacePoint& point);
 
 /// Principal curvatures in 1/mm: positive where the surface bends towards `normal`, as the inside of a bowl does seen from
