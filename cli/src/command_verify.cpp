@@ -63,6 +63,7 @@ base::Json toJson(const Flags& flags, const VerifyReport& report) {
     out["motions"] = report.motions;
     out["intermediate"] = report.intermediate;
     out["links"] = report.links;
+    out["excursions"] = report.excursions;
     out["extra"] = report.extra;
     out["max_tip_error_mm"] = report.max_tip_error_mm.value;
     out["max_axis_error_deg"] = report.max_axis_error_rad.value * deg;

@@ -156,7 +156,7 @@ void AxisPlanner::reportProblems(const Layer& layer, const RotaryValues& before,
                                   degreeText(out.rotary_rad[i] < range.min ? range.min : range.max)),
                       where);
     }
-    if (!out.rewind) return;
+    if (!out.rewind || options_.rewinds_are_handled) return;
     std::string turns;
     for (std::size_t i = 0; i < machine_.rotaryCount(); ++i) {
         const double step = std::abs(out.rotary_rad[i] - before[i]);
@@ -165,8 +165,8 @@ void AxisPlanner::reportProblems(const Layer& layer, const RotaryValues& before,
         turns += fmt::format("{}{} axis from {}° to {}° ({}°)", turns.empty() ? "" : ", ", machine_.rotaryNames()[i],
                              degreeText(before[i]), degreeText(out.rotary_rad[i]), degreeText(step));
     }
-    report_.add({options_.rewinds_are_handled ? base::Severity::Warning : base::Severity::Error, "kinematics.rewind",
-                 fmt::format("the limits force a rewind while cutting, at CL line {}: {}", layer.line, turns), where});
+    report_.error("kinematics.rewind",
+                  fmt::format("the limits force a rewind while cutting, at CL line {}: {}", layer.line, turns), where);
 }
 
 }  // namespace cusp::kinematics

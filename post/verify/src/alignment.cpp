@@ -80,21 +80,23 @@ void Alignment::motion(const ExecutedMotion& motion) {
 
 void Alignment::compare(const ExecutedMotion& motion) {
     if (!motion.end_pose) return withoutPose(motion);
-    if (meetsNext(motion)) return;
+    if (continuesExcursion(motion) || meetsNext(motion)) return;
     if (isRapid(motion) && atOpening() && !held_) {
         const bool stays = standsStill(motion);
         if ((stays || !onTheWay(motion)) && !meetsLater(motion)) link();
         return;
     }
-    if (onTheWay(motion) || meetsLater(motion)) return;
+    if (onTheWay(motion) || beginsExcursion(motion) || meetsLater(motion)) return;
     if (held_) {
-        displaced(*held_);
+        done() ? extra(*held_) : displaced(*held_);
+        held_.reset();
         return compare(motion);
     }
     held_ = Held{motion.place, *motion.end_pose, isRapid(motion)};
 }
 
 void Alignment::withoutPose(const ExecutedMotion& motion) {
+    abandonExcursion();
     if (isRapid(motion)) {
         passPointsAlreadyMet();
         if (held_ && done()) {
@@ -316,6 +318,7 @@ void Alignment::checkTurns(const ExecutedMotion& motion, std::size_t cl_line) {
 
 void Alignment::finish() {
     if (expected_ == nullptr) return;
+    abandonExcursion();
     if (!held_) passPointsAlreadyMet();
     if (held_ && done())
         extra(*held_);

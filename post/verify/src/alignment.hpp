@@ -34,6 +34,14 @@ private:
         bool rapid = false;
     };
 
+    /// The tool is off the part to unwind rotary axes.
+    struct Excursion {
+        reader::BlockPlace place;
+        reader::ToolPose from;
+        reader::Vector3 off_mm;
+        bool turned = false;
+    };
+
     void checkLimits(const reader::ExecutedMotion& motion);
     void checkReach(const reader::ExecutedMotion& motion);
     void compare(const reader::ExecutedMotion& motion);
@@ -41,6 +49,10 @@ private:
     [[nodiscard]] bool meetsNext(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool onTheWay(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool meetsLater(const reader::ExecutedMotion& motion);
+    [[nodiscard]] bool beginsExcursion(const reader::ExecutedMotion& motion);
+    [[nodiscard]] bool continuesExcursion(const reader::ExecutedMotion& motion);
+    [[nodiscard]] bool restsAt(const reader::ExecutedMotion& motion, const reader::Vector3& tip_mm) const;
+    void abandonExcursion();
     void meet(const reader::ExecutedMotion& motion, std::size_t index);
     void passPointsAlreadyMet();
     void link();
@@ -71,6 +83,7 @@ private:
     std::optional<double> dwelt_s_;       ///< since the last motion
     std::optional<reader::ToolPose> at_;  ///< where the path stands: the last block end on it
     std::optional<Held> held_;
+    std::optional<Excursion> excursion_;
 };
 
 }  // namespace cusp::post::verify

@@ -62,6 +62,8 @@ std::string toText(const VerifyReport& report) {
                             report.missed);
         text += fmt::format("{:<22}{} on the way between points, {} links, {} leading nowhere\n", "other motions",
                             report.intermediate, report.links, report.extra);
+        if (report.excursions > 0)
+            text += fmt::format("{:<22}{}, off the part and back to the same place\n", "excursions", report.excursions);
         text += errorLine("at block ends", report.max_tip_error_mm, report.max_axis_error_rad);
         text += errorLine("between block ends", report.max_tip_between_mm, report.max_axis_between_rad);
     }

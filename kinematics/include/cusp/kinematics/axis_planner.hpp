@@ -38,7 +38,7 @@ struct PlannerOptions {
     /// What a rewind costs besides its travel: as much as ten minutes of travel, so that a path avoids it while it can,
     /// and puts it into a rapid move where it must.
     double rewind_penalty_s = 600.0;
-    /// Whoever takes the positions moves the tool off the part for a rewind: it is then a warning.
+    /// Whoever takes the positions moves the tool off the part for a rewind, and tells it: nothing is said here.
     bool rewinds_are_handled = false;
     /// Where the axes stand before the first point; travel from there counts. Without it the start is free.
     std::optional<RotaryValues> start_rad;
@@ -87,7 +87,7 @@ struct PlannerSummary {
 /// ties on every machine.
 ///
 /// Problems, with the CL line: `kinematics.axis-limit` (error, one for each point without a candidate within the
-/// limits), `kinematics.axis-unreachable` (error), `kinematics.rewind` (error; warning when `rewinds_are_handled`).
+/// limits), `kinematics.axis-unreachable` (error), `kinematics.rewind` (error, unless `rewinds_are_handled`).
 class AxisPlanner {
 public:
     /// `machine` must outlive the planner. Options must pass their check.

@@ -60,6 +60,7 @@ struct VerifyReport {
     std::size_t motions = 0;       ///< blocks that move
     std::size_t intermediate = 0;  ///< block ends on the way from one CL point to the next
     std::size_t links = 0;         ///< rapids outside operations: home, tool change, approach
+    std::size_t excursions = 0;    ///< times the tool leaves a cut along its axis, turns, and comes back to the same place
     std::size_t extra = 0;         ///< motions that lead nowhere in the CL file
 
     Extreme max_tip_error_mm;    ///< at block ends, those out of tolerance included
