@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluation in the Bernstein basis, halving by de Casteljau.
 #include "bernstein.hpp"
+#include "homogeneous_point.hpp"
 
 #include <cusp/geometry/bezier_patch.hpp>
 
@@ -13,46 +14,12 @@ namespace {
 
 using Vector4 = BezierPatch::Vector4;
 
-/// Homogeneous value and derivatives.
-struct Homogeneous {
-    Vector4 value = Vector4::Zero();
-    Vector4 du = Vector4::Zero();
-    Vector4 dv = Vector4::Zero();
-    Vector4 duu = Vector4::Zero();
-    Vector4 duv = Vector4::Zero();
-    Vector4 dvv = Vector4::Zero();
-};
-
-Homogeneous evaluateNet(const BezierPatch& patch, double u, double v) {
-    const detail::BernsteinBasis in_u(patch.degreeU(), u);
-    const detail::BernsteinBasis in_v(patch.degreeV(), v);
-    const Vector4* point = patch.net().data();
-    Homogeneous out;
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(patch.degreeU()); ++i) {
-        Vector4 row = Vector4::Zero();
-        Vector4 row_dv = Vector4::Zero();
-        Vector4 row_dvv = Vector4::Zero();
-        for (std::size_t j = 0; j <= static_cast<std::size_t>(patch.degreeV()); ++j, ++point) {
-            row += in_v.value[j] * *point;
-            row_dv += in_v.first[j] * *point;
-            row_dvv += in_v.second[j] * *point;
-        }
-        out.value += in_u.value[i] * row;
-        out.du += in_u.first[i] * row;
-        out.duu += in_u.second[i] * row;
-        out.dv += in_u.value[i] * row_dv;
-        out.duv += in_u.first[i] * row_dv;
-        out.dvv += in_u.value[i] * row_dvv;
-    }
-    return out;
-}
-
-SurfacePoint polynomialPoint(const Homogeneous& h) {
+SurfacePoint polynomialPoint(const detail::HomogeneousPoint& h) {
     return {h.value.head<3>(), h.du.head<3>(), h.dv.head<3>(), h.duu.head<3>(), h.duv.head<3>(), h.dvv.head<3>()};
 }
 
 /// Quotient rule; Piegl & Tiller 1997, eq. 4.20.
-SurfacePoint rationalPoint(const Homogeneous& h) {
+SurfacePoint rationalPoint(const detail::HomogeneousPoint& h) {
     const double w = 1.0 / h.value[3];
     SurfacePoint s;
     s.position = h.value.head<3>() * w;
@@ -78,6 +45,30 @@ void halve(Vector4* left, Vector4* right, std::size_t count, std::size_t stride)
 
 }  // namespace
 
+detail::HomogeneousPoint detail::homogeneousPoint(const BezierPatch& patch, double u, double v) {
+    const BernsteinBasis in_u(patch.degreeU(), u);
+    const BernsteinBasis in_v(patch.degreeV(), v);
+    const Vector4* point = patch.net().data();
+    HomogeneousPoint out;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(patch.degreeU()); ++i) {
+        Vector4 row = Vector4::Zero();
+        Vector4 row_dv = Vector4::Zero();
+        Vector4 row_dvv = Vector4::Zero();
+        for (std::size_t j = 0; j <= static_cast<std::size_t>(patch.degreeV()); ++j, ++point) {
+            row += in_v.value[j] * *point;
+            row_dv += in_v.first[j] * *point;
+            row_dvv += in_v.second[j] * *point;
+        }
+        out.value += in_u.value[i] * row;
+        out.du += in_u.first[i] * row;
+        out.duu += in_u.second[i] * row;
+        out.dv += in_u.value[i] * row_dv;
+        out.duv += in_u.first[i] * row_dv;
+        out.dvv += in_u.value[i] * row_dvv;
+    }
+    return out;
+}
+
 BezierPatch::BezierPatch(int degree_u, int degree_v, std::vector<Vector4> net, const Vector3& origin)
     : degree_u_(degree_u), degree_v_(degree_v), net_(std::move(net)), origin_(origin) {
     assert(degree_u >= 0 && degree_u <= max_surface_degree && degree_v >= 0 && degree_v <= max_surface_degree);
@@ -86,7 +77,7 @@ BezierPatch::BezierPatch(int degree_u, int degree_v, std::vector<Vector4> net, c
 }
 
 SurfacePoint BezierPatch::evaluateLocal(double u, double v) const {
-    const Homogeneous h = evaluateNet(*this, u, v);
+    const detail::HomogeneousPoint h = detail::homogeneousPoint(*this, u, v);
     return rational_ ? rationalPoint(h) : polynomialPoint(h);
 }
 

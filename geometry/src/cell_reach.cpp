@@ -171,11 +171,13 @@ double ReachFinder::curvatureReach(std::size_t cell, const std::vector<std::size
         // From widths of that cell to parameters scaled by the columns at home.
         const double scale_u = width_u / (box.high_u - box.low_u) / size_u;
         const double scale_v = width_v / (box.high_v - box.low_v) / size_v;
-        const double column_u = (scale_u * b.du - home.du / size_u).norm() + 0.5 * scale_u * (b.duu_mm + b.duv_mm);
-        const double column_v = (scale_v * b.dv - home.dv / size_v).norm() + 0.5 * scale_v * (b.duv_mm + b.dvv_mm);
+        const double column_u =
+            (scale_u * b.du - home.du / size_u).norm() + 0.5 * scale_u * (b.duu.largest + b.duv.largest);
+        const double column_v =
+            (scale_v * b.dv - home.dv / size_v).norm() + 0.5 * scale_v * (b.duv.largest + b.dvv.largest);
         deviation = std::max(deviation, std::hypot(column_u, column_v));
-        kappa = std::max(kappa, std::max(scale_u * scale_u * b.duu_mm, scale_v * scale_v * b.dvv_mm) +
-                                    scale_u * scale_v * b.duv_mm);
+        kappa = std::max(kappa, std::max(scale_u * scale_u * b.duu.largest, scale_v * scale_v * b.dvv.largest) +
+                                    scale_u * scale_v * b.duv.largest);
     }
     const double sigma = std::sqrt(std::max(0.0, 1.0 - std::abs(home.du.dot(home.dv)) / (size_u * size_v)));
     if (!(sigma > deviation)) return 0.0;
@@ -204,9 +206,9 @@ Eigen::AlignedBox3d ReachFinder::scopeBox(std::size_t cell, const std::vector<st
         const ParameterBox box = faceBox(c);
         const double ratio_u = (home_box.high_u - home_box.low_u) / (box.high_u - box.low_u);
         const double ratio_v = (home_box.high_v - home_box.low_v) / (box.high_v - box.low_v);
-        duu = std::max(duu, ratio_u * ratio_u * b.duu_mm);
-        duv = std::max(duv, ratio_u * ratio_v * b.duv_mm);
-        dvv = std::max(dvv, ratio_v * ratio_v * b.dvv_mm);
+        duu = std::max(duu, ratio_u * ratio_u * b.duu.largest);
+        duv = std::max(duv, ratio_u * ratio_v * b.duv.largest);
+        dvv = std::max(dvv, ratio_v * ratio_v * b.dvv.largest);
     }
     // Taylor's formula about the middle; the scope ends `a` widths from it.
     constexpr double a = 0.5 * reach_scope;

@@ -65,7 +65,7 @@ private:
         if (!canImprove(piece.distance.least_squared_mm2, limit_)) return true;
         const PatchBounds bounds = boundPatch(piece.net);
         // The origin of the net is the query.
-        if (foot.converged && bounds.center.norm() < bounds.convex_reach_mm) return true;
+        if (foot.converged && bounds.isConvexFor(Vector3::Zero())) return true;
         return 2.0 * bounds.radius_mm < search_tolerance_mm;
     }
 

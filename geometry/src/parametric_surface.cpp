@@ -115,7 +115,7 @@ private:
     void searchCell(const PatchCell& cell, const Vector3& local, double limit_squared, Take take) const {
         if (cell.bounds.squaredDistance(local) > limit_squared) return;
         const BezierPatch& patch = patches_[cell.patch];
-        if ((local - cell.bounds.center).norm() < cell.bounds.convex_reach_mm) {
+        if (cell.bounds.isConvexFor(local)) {
             const PatchFoot foot = detail::newtonInBox(patch, cell.box, local, cell.box.middleU(), cell.box.middleV());
             if (foot.squared_mm2 < limit_squared) limit_squared = take(foot);
             if (foot.converged) return;

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// Bounds of derivatives from differences of control points; convexity of the squared distance from those.
+// Bounds of derivatives from differences of control points, and convexity from those.
 //
-// With r = S − query, the Hessian of ½|r|² is JᵀJ + r·S″ (J = [du dv]). Scaled to unit columns at the centre, J = J₀ + E:
-// its smallest singular value is at least σ − ε with σ² = 1 − |cos(du, dv)| and ε bounding E. With κ bounding the scaled
-// S″, the Hessian is positive definite wherever (σ − ε)² > |r| κ; and |r| ≤ |query − centre| + radius.
+// A derivative of S = N/w (N taken about the centre, so that S vanishes there) is a sum of products of N, w and their
+// derivatives, each of which lies in the hull of its control values. Deviations from the centre follow term by term.
 #include "patch_bounds.hpp"
+
+#include "homogeneous_point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,48 +17,100 @@ namespace {
 
 using Vector4 = BezierPatch::Vector4;
 
-/// Largest size of a homogeneous derivative: of its spatial part and of its weight.
-struct Largest {
+/// Of a homogeneous derivative: the largest size and the largest deviation from the centre, of its spatial part and weight.
+struct Extent {
+    Vector4 center;
     double space = 0.0;
     double weight = 0.0;
+    double space_deviation = 0.0;
+    double weight_deviation = 0.0;
 
-    void take(const Vector4& difference, double factor) {
-        space = std::max(space, factor * difference.head<3>().norm());
-        weight = std::max(weight, factor * std::abs(difference[3]));
+    explicit Extent(const Vector4& at_center) : center(at_center) {}
+    void take(const Vector4& control) {
+        space = std::max(space, control.head<3>().norm());
+        weight = std::max(weight, std::abs(control[3]));
+        space_deviation = std::max(space_deviation, (control - center).head<3>().norm());
+        weight_deviation = std::max(weight_deviation, std::abs(control[3] - center[3]));
     }
-};
-
-struct NetBounds {
-    Largest u;
-    Largest v;
-    Largest uu;
-    Largest uv;
-    Largest vv;
-    double smallest_weight = std::numeric_limits<double>::infinity();
-    double radius_mm = 0.0;
 };
 
 /// Over a net that is centred on the origin.
-NetBounds boundNet(const BezierPatch& net) {
-    NetBounds out;
-    const int p = net.degreeU();
-    const int q = net.degreeV();
-    for (int i = 0; i <= p; ++i) {
-        for (int j = 0; j <= q; ++j) {
-            const Vector4& point = net.at(i, j);
-            out.smallest_weight = std::min(out.smallest_weight, point[3]);
-            out.radius_mm = std::max(out.radius_mm, point.head<3>().norm() / point[3]);
-            if (i < p) out.u.take(net.at(i + 1, j) - point, p);
-            if (j < q) out.v.take(net.at(i, j + 1) - point, q);
-            if (i + 1 < p) out.uu.take(net.at(i + 2, j) - 2.0 * net.at(i + 1, j) + point, p * (p - 1.0));
-            if (j + 1 < q) out.vv.take(net.at(i, j + 2) - 2.0 * net.at(i, j + 1) + point, q * (q - 1.0));
-            if (i < p && j < q) {
-                const Vector4 twist = net.at(i + 1, j + 1) - net.at(i + 1, j) - net.at(i, j + 1) + point;
-                out.uv.take(twist, p * static_cast<double>(q));
+struct NetBounds {
+    Extent value;
+    Extent u;
+    Extent v;
+    Extent uu;
+    Extent uv;
+    Extent vv;
+    double inverse_weight = 0.0;  ///< largest 1/w
+    double inverse_weight_deviation = 0.0;
+    double radius_mm = 0.0;
+
+    NetBounds(const BezierPatch& net, const HomogeneousPoint& center)
+        : value(center.value), u(center.du), v(center.dv), uu(center.duu), uv(center.duv), vv(center.dvv) {
+        const int p = net.degreeU();
+        const int q = net.degreeV();
+        for (int i = 0; i <= p; ++i) {
+            for (int j = 0; j <= q; ++j) {
+                const Vector4& point = net.at(i, j);
+                inverse_weight = std::max(inverse_weight, 1.0 / point[3]);
+                radius_mm = std::max(radius_mm, point.head<3>().norm() / point[3]);
+                value.take(point);
+                if (i < p) u.take(p * (net.at(i + 1, j) - point));
+                if (j < q) v.take(q * (net.at(i, j + 1) - point));
+                if (i + 1 < p) uu.take(p * (p - 1.0) * (net.at(i + 2, j) - 2.0 * net.at(i + 1, j) + point));
+                if (j + 1 < q) vv.take(q * (q - 1.0) * (net.at(i, j + 2) - 2.0 * net.at(i, j + 1) + point));
+                if (i < p && j < q) {
+                    uv.take(static_cast<double>(p) * q *
+                            (net.at(i + 1, j + 1) - net.at(i + 1, j) - net.at(i, j + 1) + point));
+                }
             }
         }
+        inverse_weight_deviation = inverse_weight * value.weight_deviation / center.value[3];
     }
-    return out;
+};
+
+/// Of w_a S_b / w (a weight's derivative times a derivative of S): largest size and deviation.
+struct Product {
+    double largest;
+    double deviation;
+};
+
+Product mixedTerm(const NetBounds& b, const Extent& weight_derivative, double length, double length_deviation) {
+    const double largest = weight_derivative.weight * length;
+    return {largest * b.inverse_weight,
+            (weight_derivative.weight_deviation * length + weight_derivative.weight * length_deviation) *
+                    b.inverse_weight +
+                largest * b.inverse_weight_deviation};
+}
+
+/// S_ab = N_ab/w − w_a S_b/w − w_b S_a/w − w_ab S/w.
+SecondDerivative secondDerivative(const NetBounds& b, const Extent& n, const Product& first, const Product& second,
+                                  const Vector3& at_center) {
+    const double last = n.weight * b.radius_mm * b.inverse_weight;
+    return {at_center, n.space * b.inverse_weight + first.largest + second.largest + last,
+            n.space_deviation * b.inverse_weight + n.center.head<3>().norm() * b.inverse_weight_deviation +
+                first.deviation + second.deviation + last};
+}
+
+void boundDerivatives(const NetBounds& b, const SurfacePoint& center, PatchBounds& out) {
+    out.length_u_mm = b.inverse_weight * (b.u.space + b.u.weight * b.radius_mm);
+    out.length_v_mm = b.inverse_weight * (b.v.space + b.v.weight * b.radius_mm);
+    // First with the trivial deviation of du and dv, for their size only; then with the real one.
+    double deviation_u = 2.0 * out.length_u_mm;
+    double deviation_v = 2.0 * out.length_v_mm;
+    for (int round = 0; round < 2; ++round) {
+        const Product u_u = mixedTerm(b, b.u, out.length_u_mm, deviation_u);
+        const Product u_v = mixedTerm(b, b.u, out.length_v_mm, deviation_v);
+        const Product v_u = mixedTerm(b, b.v, out.length_u_mm, deviation_u);
+        const Product v_v = mixedTerm(b, b.v, out.length_v_mm, deviation_v);
+        out.duu = secondDerivative(b, b.uu, u_u, u_u, center.duu);
+        out.duv = secondDerivative(b, b.uv, u_v, v_u, center.duv);
+        out.dvv = secondDerivative(b, b.vv, v_v, v_v, center.dvv);
+        // The corners lie half a width from the centre each way.
+        deviation_u = std::min(deviation_u, 0.5 * (out.duu.largest + out.duv.largest));
+        deviation_v = std::min(deviation_v, 0.5 * (out.duv.largest + out.dvv.largest));
+    }
 }
 
 Matrix3 axesOf(const SurfacePoint& center) {
@@ -73,13 +126,28 @@ Matrix3 axesOf(const SurfacePoint& center) {
 
 }  // namespace
 
+bool PatchBounds::isConvexFor(const Vector3& query) const {
+    // The Hessian is JᵀJ + r·S″ with r = S − query. Each entry: its value at the centre, less what it may deviate.
+    const Vector3 r = center - query;
+    const double distance = r.norm();
+    const double u = du.norm();
+    const double v = dv.norm();
+    const double e_u = 0.5 * (duu.largest + duv.largest);
+    const double e_v = 0.5 * (duv.largest + dvv.largest);
+    const auto bent = [&](const SecondDerivative& s) { return radius_mm * s.largest + distance * s.deviation; };
+    const double least_uu = u * u + r.dot(duu.center) - (2.0 * u + e_u) * e_u - bent(duu);
+    const double least_vv = v * v + r.dot(dvv.center) - (2.0 * v + e_v) * e_v - bent(dvv);
+    const double most_uv = std::abs(du.dot(dv) + r.dot(duv.center)) + u * e_v + v * e_u + e_u * e_v + bent(duv);
+    // A little less than the bound, so that rounding cannot matter.
+    constexpr double margin = 0.999;
+    return least_uu > 0.0 && least_vv > 0.0 && most_uv * most_uv < margin * least_uu * least_vv;
+}
+
 PatchBounds boundPatch(const BezierPatch& patch) {
+    PatchBounds out{};
     const SurfacePoint center = patch.evaluateLocal(0.5, 0.5);
     const BezierPatch net = patch.about(patch.origin() + center.position);
-    const NetBounds b = boundNet(net);
-    const double w = 1.0 / b.smallest_weight;
-
-    PatchBounds out{};
+    const NetBounds b(net, homogeneousPoint(net, 0.5, 0.5));
     out.center = center.position;
     out.du = center.du;
     out.dv = center.dv;
@@ -92,33 +160,14 @@ PatchBounds boundPatch(const BezierPatch& patch) {
         out.low = out.low.cwiseMin(local);
         out.high = out.high.cwiseMax(local);
     }
-    // Quotient rule with |S − centre| ≤ radius.
-    out.length_u_mm = w * (b.u.space + b.u.weight * b.radius_mm);
-    out.length_v_mm = w * (b.v.space + b.v.weight * b.radius_mm);
-    const double uu = w * (b.uu.space + 2.0 * b.u.weight * out.length_u_mm + b.uu.weight * b.radius_mm);
-    const double vv = w * (b.vv.space + 2.0 * b.v.weight * out.length_v_mm + b.vv.weight * b.radius_mm);
-    const double uv =
-        w * (b.uv.space + b.u.weight * out.length_v_mm + b.v.weight * out.length_u_mm + b.uv.weight * b.radius_mm);
-
-    out.duu_mm = uu;
-    out.duv_mm = uv;
-    out.dvv_mm = vv;
-
+    boundDerivatives(b, center, out);
     const double size_u = center.du.norm();
     const double size_v = center.dv.norm();
-    out.convex_reach_mm = -1.0;
     out.bend_u = out.bend_v = std::numeric_limits<double>::infinity();
-    if (!(size_u > 0.0 && size_v > 0.0)) return out;
-    out.bend_u = 0.5 * std::hypot(uu / size_u, uv / size_v);
-    out.bend_v = 0.5 * std::hypot(uv / size_u, vv / size_v);
-    const double bend = out.bend_u + out.bend_v;
-    const double sigma = std::sqrt(std::max(0.0, 1.0 - std::abs(center.du.dot(center.dv)) / (size_u * size_v)));
-    if (!(sigma > bend)) return out;
-    const double mixed = uv / (size_u * size_v);
-    const double kappa = std::max(uu / (size_u * size_u), vv / (size_v * size_v)) + mixed;
-    // A little less than the bound, so that rounding cannot matter.
-    constexpr double margin = 0.999;
-    out.convex_reach_mm = margin * (sigma - bend) * (sigma - bend) / kappa - out.radius_mm;
+    if (size_u > 0.0 && size_v > 0.0) {
+        out.bend_u = 0.5 * std::hypot(out.duu.largest / size_u, out.duv.largest / size_v);
+        out.bend_v = 0.5 * std::hypot(out.duv.largest / size_u, out.dvv.largest / size_v);
+    }
     return out;
 }
 

@@ -21,7 +21,8 @@ Eigen::AlignedBox3d hullOf(const BezierPatch& patch) {
 void cut(const BezierPatch& part, const ParameterBox& box, std::uint32_t index, int halvings,
          std::vector<PatchCell>& cells) {
     const PatchBounds bounds = boundPatch(part);
-    if (halvings == most_halvings || (bounds.bend_u + bounds.bend_v <= flat_enough && bounds.convex_reach_mm > 0.0)) {
+    if (halvings == most_halvings ||
+        (bounds.bend_u + bounds.bend_v <= flat_enough && bounds.isConvexFor(bounds.center))) {
         cells.push_back({index, box, bounds, hullOf(part)});
         return;
     }
