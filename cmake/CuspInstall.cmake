@@ -12,7 +12,9 @@ set(packages
   "nlohmann_json::nlohmann_json=nlohmann_json"
   "Threads::Threads=Threads"
   "OpenSSL::Crypto=OpenSSL"
-  "TBB::tbb=TBB")
+  "TBB::tbb=TBB"
+  "Modbus::Modbus=Modbus"
+  "SQLite::SQLite3=SQLite3")
 
 set(CUSP_CONFIG_ROOMS "")
 get_property(rooms GLOBAL PROPERTY CUSP_ROOMS)
@@ -38,5 +40,6 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/cusp-config.cmake.in"
   "${PROJECT_BINARY_DIR}/cusp-config.cmake" INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cusp)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/cusp-config-version.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/cusp-config.cmake" "${PROJECT_BINARY_DIR}/cusp-config-version.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/FindModbus.cmake"
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cusp)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/cusp)

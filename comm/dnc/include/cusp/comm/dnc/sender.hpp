@@ -103,6 +103,8 @@ public:
     /// The next request, when one is due and the windows allow it. Call again until there is none.
     [[nodiscard]] std::optional<Request> poll(double now_s);
     void receive(ByteView reply, double now_s);
+    /// Gives up when nothing was heard or gained for too long; `poll` does it too.
+    void tick(double now_s) { static_cast<void>(over() || checkStandstill(now_s)); }
     /// When `poll` is to be called at the latest, unless a reply comes before.
     [[nodiscard]] double nextWake_s(double now_s) const;
     /// The transport is gone; `reason` for the message.
