@@ -24,6 +24,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cusp::cli {
 
@@ -43,6 +44,9 @@ struct Flags {
     std::optional<std::string> work_offset;
     std::optional<std::string> setup;
     std::optional<double> spindle_rpm;
+    std::string form;
+    std::optional<double> tool_length_mm;
+    std::vector<double> wcs_origin_mm;
     std::optional<double> orientation_tolerance_deg;
     std::optional<double> pole_cone_deg;
     std::optional<double> chord_tolerance_mm;
@@ -65,6 +69,11 @@ base::Result<post::PostOptions> optionsOf(const Flags& flags) {
     if (flags.work_offset) job.post.work_offset = *flags.work_offset;
     if (flags.setup) job.post.setup = *flags.setup;
     if (flags.spindle_rpm) job.post.spindle_rpm = *flags.spindle_rpm;
+    for (const auto& [word, form] : post::programFormWords())
+        if (flags.form == word) job.post.form = form;
+    if (flags.tool_length_mm) job.post.tool_length_mm = *flags.tool_length_mm;
+    if (flags.wcs_origin_mm.size() == 3)
+        job.post.wcs_origin_mm = {flags.wcs_origin_mm[0], flags.wcs_origin_mm[1], flags.wcs_origin_mm[2]};
     if (flags.orientation_tolerance_deg)
         job.post.orientation_tolerance_rad = base::radFromDeg(*flags.orientation_tolerance_deg);
     if (flags.pole_cone_deg) job.post.pole_cone_rad = base::radFromDeg(*flags.pole_cone_deg);
@@ -86,18 +95,42 @@ base::Result<Setup> setupOf(const post::PostOptions& options) {
     return Setup(*std::move(setup));
 }
 
+/// What X, Y, Z mean, for whoever opens the program at the machine.
+std::string formRemark(post::ProgramForm form, const LoadedMachine& machine) {
+    if (machine.model.rotaryCount() == 0) return "X Y Z are the tool tip";
+    switch (form) {
+        case post::ProgramForm::TraoriRotary: return "X Y Z are the tool tip (TRAORI)";
+        case post::ProgramForm::TraoriVectors: return "X Y Z are the tool tip, A3 B3 C3 the tool axis (TRAORI)";
+        case post::ProgramForm::Machine: return "no TRAORI: X Y Z hold for the tool lengths and origin posted with";
+    }
+    return {};
+}
+
+post::ProgramForm formOf(const post::PostOptions& options, const LoadedMachine& machine) {
+    return options.form.value_or(machine.file.control.form);
+}
+
 post::ProgramHead headOf(const Flags& flags, const post::PostOptions& options, const LoadedMachine& machine,
                          const Setup& setup) {
     return {options.program_name,
             options.work_offset,
             {"from " + fileNameOf(flags.cl_file) + " by cusp " + std::string(base::version()),
              "machine: " + machine.file.machine.name,
-             "X Y Z are the tool tip (TRAORI); linear travel " +
+             formRemark(formOf(options, machine), machine) + "; linear travel " +
                  (setup ? "kept in the setup: " + setup->name : std::string("not checked"))}};
 }
 
 const std::string& workOffsetOf(const post::PostOptions& options, const LoadedMachine& machine) {
     return options.work_offset.empty() ? machine.file.control.work_offset : options.work_offset;
+}
+
+/// What a program without TRAORI takes from the setup, where no option says otherwise.
+void takeFrom(const machine::SetupDefinition& setup, post::PostOptions& options) {
+    for (const machine::SetupTool& tool : setup.tools) {
+        if (!tool.name.empty()) options.tool_lengths_mm.try_emplace(tool.name, tool.length_mm);
+        if (tool.number) options.tool_lengths_mm.try_emplace(std::to_string(*tool.number), tool.length_mm);
+    }
+    for (const auto& [name, offset] : setup.work_offsets) options.offset_origins_mm.try_emplace(name, offset.origin_mm);
 }
 
 void tellTravel(post::TravelCheck& travel, PostOutcome& outcome) {
@@ -138,7 +171,7 @@ ExitCode finish(const Flags& flags, const PostOutcome& outcome, ProgramFile& fil
 }
 
 ExitCode runPost(const Flags& flags) {
-    const auto options = optionsOf(flags);
+    auto options = optionsOf(flags);
     if (!options) return failWith(options.error());
     if (flags.print_config) {
         say(postJobSection().toToml({*options}));
@@ -148,6 +181,7 @@ ExitCode runPost(const Flags& flags) {
     if (!machine) return failWith(machine.error());
     const auto setup = setupOf(*options);
     if (!setup) return failWith(setup.error());
+    if (*setup) takeFrom(**setup, *options);
     auto input = ClInput::open(flags.cl_file, clReaderOptions(flags.dialect, flags.units, options->strict));
     if (!input) return failWith(input.error());
     auto target = base::OutputTarget::open(flags.output);
@@ -156,6 +190,8 @@ ExitCode runPost(const Flags& flags) {
 
     PostOutcome outcome{.cl_file = flags.cl_file, .output = flags.output, .machine = *machine};
     base::Diagnostics planning;
+    machine->file.control.format =
+        post::sufficientFormat(machine->file, formOf(*options, *machine), planning);
     post::SinumerikWriter writer([&file](std::string_view text) { file.write(text); }, machine->file,
                                  headOf(flags, *options, *machine, *setup));
     std::optional<post::TravelCheck> travel;
@@ -201,14 +237,29 @@ void addPostCommand(CLI::App& app, Action& action) {
                      "checked with it.");
     post->add_option("--spindle-rpm", flags->spindle_rpm, "Spindle speed, clockwise, until the CL file gives one.");
     post->add_option(
+            "--form", flags->form,
+            "traori-rotary (TRAORI, tip and rotary axes), traori-vectors (TRAORI, tip and A3 B3 C3) or machine (no "
+            "TRAORI: positions of all axes); the machine file's when left out.")
+        ->check(CLI::IsMember({"traori-rotary", "traori-vectors", "machine"}));
+    post->add_option("--tool-length-mm", flags->tool_length_mm,
+                     "Length of every tool from the gauge point: a program without TRAORI holds it.")
+        ->check(CLI::NonNegativeNumber);
+    post->add_option(
+            "--wcs-origin-mm", flags->wcs_origin_mm,
+            "Origin of the work offset in machine coordinates, X Y Z: for a program without TRAORI on a machine "
+            "with a rotary table.")
+        ->expected(3);
+    post->add_option(
         "--orientation-tolerance-deg", flags->orientation_tolerance_deg,
         "While cutting, how far the tool axis may leave its way between two CL points (0.05); near the pole "
         "blocks are inserted.");
     post->add_option("--pole-cone-deg", flags->pole_cone_deg,
                      "Where rotary limits force a change of branch in a cut: at most this close to the pole, with a "
                      "warning (3); 0 refuses.");
-    post->add_option("--tolerance,--chord-tolerance-mm", flags->chord_tolerance_mm,
-                     "Distance of straight moves from the arc they stand for, in mm (0.005).");
+    post->add_option(
+        "--tolerance,--chord-tolerance-mm", flags->chord_tolerance_mm,
+        "How far the tip may be from its way between block ends, in mm (0.005): on straight moves that stand "
+        "for an arc, and without TRAORI on every move.");
     post->add_flag("--strict", flags->strict,
                    "Statements that are not understood, and cuts with the spindle off, are errors.");
     CLI::Option* json = post->add_flag("--json", flags->json, "One machine-readable summary on stdout.");

@@ -37,7 +37,10 @@ std::string rotaryText(const PostOutcome& outcome) {
             fmt::format("  largest rotary step: {} by {:.3f}° at CL line {}\n", names[summary.largest_rotary_step_axis],
                         base::degFromRad(summary.largest_rotary_step_rad), summary.largest_rotary_step_cl_line);
     if (summary.inserted_blocks > 0)
-        out += "  " + plural(summary.inserted_blocks, "block") + " inserted near the pole\n";
+        out += "  " + plural(summary.inserted_blocks, "block") + " inserted so that tool axis and tip keep their way\n";
+    if (summary.largest_chord_error_mm > 0.0)
+        out += fmt::format("  between block ends the tip is within {:.4f} mm of its way (proven bound)\n",
+                           summary.largest_chord_error_mm);
     if (summary.largest_axis_deviation_rad > 0.0)
         out +=
             fmt::format("  while cutting, the tool axis leaves its way by at most {:.3f}°, at CL line {}\n",
@@ -108,6 +111,7 @@ base::Json toJson(const PostOutcome& outcome) {
     out["tool_changes"] = summary.tool_changes;
     out["blocks"] = outcome.blocks;
     out["inserted_blocks"] = summary.inserted_blocks;
+    out["max_tip_between_bound_mm"] = summary.largest_chord_error_mm;
     out["max_axis_between_deg"] = base::degFromRad(summary.largest_axis_deviation_rad);
     out["warnings"] = outcome.report.warningCount();
     out["errors"] = outcome.report.errorCount();

@@ -12,12 +12,21 @@ protected:
         CommandLine::SetUp();
         if (!std::filesystem::exists(CUSP_SHARED_DATA)) GTEST_SKIP() << "no real files at " << CUSP_SHARED_DATA;
     }
-    nlohmann::json postAndVerify(const std::string& name, const std::string& machine) {
+    /// `shared_flags` go to both commands.
+    nlohmann::json postAndVerify(const std::string& name, const std::string& machine,
+                                 const std::vector<std::string>& shared_flags = {}, const std::string& form = {}) {
         const std::string cl = std::string(CUSP_SHARED_DATA) + "/cl/" + name;
-        const auto posted = run({"post", cl, "-m", machine, "-o", path("P.MPF"), "--spindle-rpm", "5000", "--json"});
+        std::vector<std::string> posting{"post",          cl,     "-m",    machine, "-o", path("P.MPF"),
+                                         "--spindle-rpm", "5000", "--json"};
+        std::vector<std::string> verifying{"verify", path("P.MPF"), "-m", machine, "--against", cl, "--json"};
+        if (!form.empty()) posting.insert(posting.end(), {"--form", form});
+        if (!form.empty()) verifying.insert(verifying.end(), {"--between-tip-tolerance-mm", "0.005"});
+        for (auto* arguments : {&posting, &verifying})
+            arguments->insert(arguments->end(), shared_flags.begin(), shared_flags.end());
+        const auto posted = run(posting);
         EXPECT_EQ(posted.exit_code, 0) << machine << "\n" << posted.errors << posted.output;
         post = nlohmann::json::parse(posted.output, nullptr, false);
-        const auto verified = run({"verify", path("P.MPF"), "-m", machine, "--against", cl, "--json"});
+        const auto verified = run(verifying);
         EXPECT_EQ(verified.exit_code, 0) << machine << "\n" << verified.errors << verified.output;
         return nlohmann::json::parse(verified.output, nullptr, false);
     }
@@ -38,6 +47,18 @@ TEST_F(RealFiles, FiveAxisPathsFollowTheirClFiles) {
             << machine;
     }
     EXPECT_EQ(postAndVerify("nx_apt_code.cls", "fooke-endura-ca")["matched"], 325);
+}
+
+TEST_F(RealFiles, EveryFormFollowsTheFile) {
+    for (const std::string machine : {"fooke-endura-ca", "head-c200-a95", "haas-umc-bc", "trunnion-ac", "nutating-45"})
+        for (const std::string form : {"traori-rotary", "traori-vectors", "machine"}) {
+            const auto json = postAndVerify("nx_variable_axis.cls", machine,
+                                            {"--tool-length-mm", "120", "--wcs-origin-mm", "10", "-20", "30"}, form);
+            EXPECT_EQ(json["matched"], 348) << machine << ", " << form;
+            EXPECT_LE(json["max_tip_error_mm"].get<double>(), 0.001);
+            EXPECT_LE(json["max_axis_error_deg"].get<double>(), 0.001);
+            EXPECT_LE(json["max_tip_between_mm"].get<double>(), 0.005);
+        }
 }
 
 TEST_F(RealFiles, TheToolAxisStaysOnItsWayWhereTheRotaryAxesAreFree) {

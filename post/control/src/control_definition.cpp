@@ -93,6 +93,10 @@ Section<ControlDefinition> makeControlSection() {
                base::positive())
         .field("cycle832_orientation_tolerance_deg", &ControlDefinition::cycle832_orientation_tolerance_rad,
                "Orientation tolerance given to CYCLE832 from software 4.5; 0 gives none.", {.min = 0.0, .max = 90.0})
+        .choice<ProgramForm>(
+            "form", &ControlDefinition::form, programFormWords(),
+            "How programs say where the tool is: traori-rotary (TRAORI, tip and rotary axes), traori-vectors "
+            "(TRAORI, tip and A3 B3 C3), machine (no TRAORI: all axes, tool length and pivot resolved).")
         .field("start_codes", &ControlDefinition::start_codes,
                "The modal codes every program and operation starts from.")
         .field("work_offset", &ControlDefinition::work_offset,
@@ -157,6 +161,14 @@ base::Result<MachineFile> readRoot(const base::TomlDocument& document) {
 }
 
 }  // namespace
+
+const std::vector<std::pair<std::string, ProgramForm>>& programFormWords() {
+    static const std::vector<std::pair<std::string, ProgramForm>> words = {
+        {"traori-rotary", ProgramForm::TraoriRotary},
+        {"traori-vectors", ProgramForm::TraoriVectors},
+        {"machine", ProgramForm::Machine}};
+    return words;
+}
 
 const base::Section<ControlDefinition>& controlSection() {
     static const Section<ControlDefinition> section = makeControlSection();

@@ -150,7 +150,9 @@ void Alignment::passPointsAlreadyMet() {
 
 bool Alignment::onTheWay(const ExecutedMotion& motion) {
     if (done() || next_ == 0 || (!at_ && expected_->points[next_].opens)) return false;
-    const auto fraction = nextMove().fractionOf(*motion.end_pose, tolerance_);
+    auto fraction = nextMove().fractionOf(*motion.end_pose, tolerance_);
+    const bool detour = !fraction;
+    if (detour) fraction = besideTheWay(motion);
     const ExpectedCycle* hole = nextHole();
     if (!fraction || (hole == nullptr && *fraction < fraction_ - 1e-9)) return false;
     if (held_) extra(*held_);
@@ -170,11 +172,23 @@ bool Alignment::onTheWay(const ExecutedMotion& motion) {
         checkKind(motion, point);
     checkBetween(motion, *fraction);
     checkTurns(motion, point.line);
+    if (detour && !isRapid(motion))
+        findings_.state(base::Severity::Warning, "verify.winding", motion.place,
+                        "the rotary axes change branch near the pole: the tip is on its way, the tool axis beside it",
+                        point.line);
     if (!isRapid(motion))
         checkProcess(motion, expected_->processes[point.process], point.line, process_limits_, findings_);
     fraction_ = *fraction;
     at_ = motion.end_pose;
     return true;
+}
+
+/// Without TRAORI a turn of the rotary axes takes many blocks to keep the tip on its way. In a rapid, and where the branch
+/// changes within the pole cone, the tool axis does not keep its own.
+std::optional<double> Alignment::besideTheWay(const ExecutedMotion& motion) const {
+    if (!motion.joint_linear || held_) return std::nullopt;
+    const double axis_rad = isRapid(motion) ? std::numbers::pi : options_.pole_cone_rad;
+    return nextMove().fractionOf(*motion.end_pose, {tolerance_.tip_mm, axis_rad});
 }
 
 bool Alignment::meetsLater(const ExecutedMotion& motion) {

@@ -48,6 +48,7 @@ private:
     void withoutPose(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool meetsNext(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool onTheWay(const reader::ExecutedMotion& motion);
+    [[nodiscard]] std::optional<double> besideTheWay(const reader::ExecutedMotion& motion) const;
     [[nodiscard]] bool meetsLater(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool beginsExcursion(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool continuesExcursion(const reader::ExecutedMotion& motion);

@@ -17,8 +17,10 @@ using toolpath::MotionKind;
 namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
-// A normal this close to Z tilts the plane of a 1 m circle by less than the last printed decimal.
-constexpr double plane_tolerance_rad = 5e-9;
+// A normal so close to Z that the circle leaves the plane by less than a tenth of what a block end may be off.
+constexpr double plane_tolerance_mm = 1e-4;
+// Linear axes that a rotary one stands between may shear a circle.
+constexpr double rigid_tolerance = 1e-9;
 // Below this, start and end are one point and the turn is a whole one or none.
 constexpr double least_sweep_rad = 1e-12;
 
@@ -58,18 +60,19 @@ struct ArcPoints {
     double sweep;
 };
 
-std::vector<NcItem> chords(const ArcMotion& arc, const Vector3& start_mm, const RotaryValues& rotary_rad,
-                           const FeedRate& feed, double chord_tolerance_mm) {
+std::vector<NcItem> chords(const ArcMotion& arc, const Vector3& start_mm, const Eigen::Affine3d& frame,
+                           const RotaryValues& rotary_rad, const FeedRate& feed, double chord_tolerance_mm) {
     const ArcPoints points(arc, start_mm);
     const double radius = std::max(points.start_radius, points.end_radius);
     const double cosine = std::max(-1.0, 1.0 - chord_tolerance_mm / radius);
     const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(points.sweep / (2.0 * std::acos(cosine)))));
     std::vector<NcItem> steps;
     steps.reserve(count);
-    for (std::size_t i = 1; i < count; ++i)
-        steps.emplace_back(
-            Move{points.at(static_cast<double>(i) / static_cast<double>(count)), rotary_rad, MotionKind::Feed, feed});
-    steps.emplace_back(Move{arc.end.tip_mm, rotary_rad, MotionKind::Feed, feed});
+    const auto add = [&](const Vector3& tip_mm) {
+        steps.emplace_back(Move{frame * tip_mm, rotary_rad, MotionKind::Feed, feed, arc.end.axis});
+    };
+    for (std::size_t i = 1; i < count; ++i) add(points.at(static_cast<double>(i) / static_cast<double>(count)));
+    add(arc.end.tip_mm);
     return steps;
 }
 
@@ -83,12 +86,18 @@ double arcSweep(const ArcMotion& arc, const Vector3& start_mm) {
     return angle > least_sweep_rad ? angle : angle + full_turn;
 }
 
-std::vector<NcItem> arcSteps(const ArcMotion& arc, const Vector3& start_mm, const RotaryValues& rotary_rad,
+std::vector<NcItem> arcSteps(const ArcMotion& arc, const Vector3& start_mm,
+                             const Eigen::Affine3d& programmed_from_workpiece, const RotaryValues& rotary_rad,
                              const FeedRate& feed, double chord_tolerance_mm) {
-    const Vector3 along_z = arc.normal.z() < 0.0 ? Vector3(-Vector3::UnitZ()) : Vector3(Vector3::UnitZ());
-    if (geometry::angleBetween(arc.normal, along_z) > plane_tolerance_rad)
-        return chords(arc, start_mm, rotary_rad, feed, chord_tolerance_mm);
-    return {ArcMove{arc.end.tip_mm, arc.center_mm - start_mm, arc.normal.z() < 0.0, rotary_rad, feed}};
+    const auto& turn = programmed_from_workpiece.linear();
+    const Vector3 normal = turn * arc.normal;
+    const bool clockwise = normal.z() < 0.0;
+    const Vector3 along_z = clockwise ? Vector3(-Vector3::UnitZ()) : Vector3(Vector3::UnitZ());
+    if (arc.radius_mm * geometry::angleBetween(normal, along_z) > plane_tolerance_mm ||
+        !turn.isUnitary(rigid_tolerance))
+        return chords(arc, start_mm, programmed_from_workpiece, rotary_rad, feed, chord_tolerance_mm);
+    return {ArcMove{programmed_from_workpiece * arc.end.tip_mm, turn * (arc.center_mm - start_mm), clockwise,
+                    rotary_rad, feed}};
 }
 
 }  // namespace cusp::post

@@ -26,8 +26,8 @@ struct StepText {
             out += fmt::format(" {}{:.4f}", rotary_names[i], base::degFromRad(values[i]));
         return out;
     }
-    static std::string tip(const geometry::Vector3& tip_mm) {
-        return fmt::format(" X{:.4f} Y{:.4f} Z{:.4f}", tip_mm.x(), tip_mm.y(), tip_mm.z());
+    static std::string point(const geometry::Vector3& point_mm) {
+        return fmt::format(" X{:.4f} Y{:.4f} Z{:.4f}", point_mm.x(), point_mm.y(), point_mm.z());
     }
     static std::string feed(const FeedRate& feed) {
         if (feed.unit == FeedRate::Unit::MmPerRev) return fmt::format(" {:.4f} mm/rev", feed.value);
@@ -37,7 +37,8 @@ struct StepText {
     template <class Motion>
     std::string motion(const Motion& item) const {
         const bool rapid = item.kind == MotionKind::Rapid;
-        return (rapid ? "rapid" : "feed") + tip(item.tip_mm) + rotary(item.rotary_rad) + (rapid ? "" : feed(item.feed));
+        return (rapid ? "rapid" : "feed") + point(item.point_mm) + rotary(item.rotary_rad) +
+               (rapid ? "" : feed(item.feed));
     }
 
     std::string operator()(const Comment& item) const { return "comment " + item.text; }
@@ -49,7 +50,9 @@ struct StepText {
     }
     std::string operator()(const Smoothing& item) const { return item.on ? "smoothing on" : "smoothing off"; }
     std::string operator()(const ScreenMessage& item) const { return "message " + item.text; }
-    std::string operator()(const SelectWorkOffset&) const { return "work-offset"; }
+    std::string operator()(const SelectWorkOffset& item) const {
+        return item.name.empty() ? "work-offset" : "work-offset " + item.name;
+    }
     std::string operator()(const Spindle& item) const {
         if (item.turn == SpindleCommand::Turn::Off) return "spindle off";
         const char* turn = item.turn == SpindleCommand::Turn::Clockwise ? "cw" : "ccw";
@@ -66,12 +69,19 @@ struct StepText {
     }
     std::string operator()(const PositionRotary& item) const { return "position-rotary" + rotary(item.rotary_rad); }
     std::string operator()(const TipProgramming& item) const {
-        return item.on ? "tip-programming on" : "tip-programming off";
+        if (!item.on) return "tip-programming off";
+        return item.vectors ? "tip-programming on, vectors" : "tip-programming on";
+    }
+    std::string operator()(const AxisProgramming& item) const {
+        return fmt::format("axis-programming length {:.4f} origin", item.tool_length_mm) + point(item.wcs_origin_mm);
     }
     std::string operator()(const Approach& item) const { return "approach " + motion(item); }
-    std::string operator()(const Move& item) const { return "move " + motion(item); }
+    std::string operator()(const Move& item) const {
+        const std::string text = "move " + motion(item);
+        return item.moves_per_min > 0.0 ? text + fmt::format(" as {:.6g}/min", item.moves_per_min) : text;
+    }
     std::string operator()(const ArcMove& item) const {
-        return fmt::format("arc {}{} I{:.4f} J{:.4f}{}{}", item.clockwise ? "cw" : "ccw", tip(item.end_mm),
+        return fmt::format("arc {}{} I{:.4f} J{:.4f}{}{}", item.clockwise ? "cw" : "ccw", point(item.end_mm),
                            item.center_from_start_mm.x(), item.center_from_start_mm.y(), rotary(item.rotary_rad),
                            feed(item.feed));
     }

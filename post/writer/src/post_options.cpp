@@ -38,6 +38,13 @@ void check(const PostOptions& options, const Where& where, base::Diagnostics& re
                      where("work_offset"));
     if (options.spindle_rpm && !(*options.spindle_rpm > 0.0 && std::isfinite(*options.spindle_rpm)))
         report.error("post.spindle-speed", "the spindle speed must be above 0 rev/min", where("spindle_rpm"));
+    const auto length = [](double mm) { return mm >= 0.0 && mm <= 5000.0; };
+    if (options.tool_length_mm && !length(*options.tool_length_mm))
+        report.error("post.tool-length", "the length of a tool must lie in 0 to 5000 mm", where("tool_length_mm"));
+    for (const auto& [tool, mm] : options.tool_lengths_mm)
+        if (!length(mm))
+            report.error("post.tool-length", "the length of tool \"" + tool + "\" must lie in 0 to 5000 mm",
+                         where("tool_lengths_mm"));
     const double tolerance_deg = base::degFromRad(options.orientation_tolerance_rad);
     constexpr double rounding = 1e-9;
     if (!(tolerance_deg >= 0.001 - rounding && tolerance_deg <= 10.0 + rounding))
@@ -64,6 +71,17 @@ const base::Section<PostOptions>& postSection() {
             .field("setup", &PostOptions::setup,
                    "Setup file, which says where the workpiece lies and how long the tools are. Empty: linear travel is "
                    "not checked.")
+            .choice<std::optional<ProgramForm>>(
+                "form", &PostOptions::form, programFormWords(),
+                "How the program says where the tool is: traori-rotary, traori-vectors or machine. Absent: the machine "
+                "file's.")
+            .field(
+                "tool_lengths_mm", &PostOptions::tool_lengths_mm,
+                "Lengths from the gauge point to the tip, by tool number or name; a program without TRAORI holds them.")
+            .field("tool_length_mm", &PostOptions::tool_length_mm, "The length of every tool not named above.",
+                   {.min = 0.0, .max = 5000.0})
+            .field("wcs_origin_mm", &PostOptions::wcs_origin_mm,
+                   "Origin of the work offset in machine coordinates: without TRAORI, on machines with a rotary table.")
             .field("orientation_tolerance_deg", &PostOptions::orientation_tolerance_rad,
                    "While cutting, how far the tool axis may leave the great circle between two points of the CL file; "
                    "where the rotary axes would swing it further, blocks are inserted.",
@@ -73,9 +91,11 @@ const base::Section<PostOptions>& postSection() {
                 "Where rotary limits force a change of branch in a cut, it is made this close to the pole at most, and "
                 "told; the tool axis leaves its way by up to as much. 0: such a path is refused.",
                 {.min = 0.0, .max = 10.0})
-            .field("chord_tolerance_mm", &PostOptions::chord_tolerance_mm,
-                   "How far the chords of arcs the control cannot drive as such may be from them.",
-                   {.min = 0.0001, .max = 1.0})
+            .field(
+                "chord_tolerance_mm", &PostOptions::chord_tolerance_mm,
+                "How far the tip may be from its way between block ends: on the chords of arcs the control cannot drive "
+                "as such, and without TRAORI on every move.",
+                {.min = 0.0001, .max = 1.0})
             .field("strict", &PostOptions::strict,
                    "What the reader does not know, and a cut with the spindle off, are errors instead of warnings.")
             .check([](const PostOptions& options, const base::TomlNode& table, base::Diagnostics& report) {

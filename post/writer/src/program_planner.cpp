@@ -3,14 +3,13 @@
 // Turns CL records into NC steps. The start and end order follows facts known from Siemens' own Sinumerik post.
 #include <cusp/post/writer/program_planner.hpp>
 
-#include "arc_steps.hpp"
 #include "hole_plan.hpp"
 #include "spindle_speed.hpp"
+#include "tool_motion.hpp"
 
 #include <cusp/base/units.hpp>
 #include <cusp/kinematics/axis_planner.hpp>
 #include <cusp/kinematics/machine.hpp>
-#include <cusp/kinematics/path_refiner.hpp>
 
 #include <fmt/format.h>
 
@@ -51,13 +50,6 @@ bool isCut(const toolpath::ClStatement& statement) {
                              : std::holds_alternative<toolpath::ArcMotion>(statement);
 }
 
-kinematics::RefinerOptions refinerOptions(const std::string& cl_file, const PostOptions& chosen) {
-    kinematics::RefinerOptions options;
-    options.file_name = cl_file;
-    options.orientation_tolerance_rad = chosen.orientation_tolerance_rad;
-    return options;
-}
-
 }  // namespace
 
 struct ProgramPlanner::State {
@@ -70,8 +62,9 @@ struct ProgramPlanner::State {
           report(diagnostics),
           model(machine_model),
           axes(model, axisOptions(cl_file, options)),
-          refiner(model, refinerOptions(cl_file, options)),
-          rotary_count(model.rotaryCount()) {
+          way(machine_file, model, options, cl_file, sink, report),
+          rotary_count(model.rotaryCount()),
+          work_offset(options.work_offset.empty() ? machine.control.work_offset : options.work_offset) {
         if (options.spindle_rpm) {
             spindle.turn = SpindleCommand::Turn::Clockwise;
             spindle.speed_rpm = *options.spindle_rpm;
@@ -87,8 +80,9 @@ struct ProgramPlanner::State {
     base::Diagnostics& report;
     const kinematics::Machine& model;
     kinematics::AxisPlanner axes;
-    kinematics::PathRefiner refiner;
+    ToolMotion way;
     std::size_t rotary_count;
+    std::string work_offset;
 
     /// Records waiting for the rotary axes of the first motion among them.
     std::deque<ClRecord> waiting;
@@ -111,7 +105,6 @@ struct ProgramPlanner::State {
     std::optional<HoleCycle> cycle_told;
 
     kinematics::PlannedAxes planned;
-    Vector3 tip = Vector3::Zero();  ///< where the last motion ended
     PostSummary summary;
     std::optional<RotaryValues> last_rotary;
 
@@ -212,53 +205,39 @@ struct ProgramPlanner::State {
     void take(const toolpath::LinearMotion& motion) {
         beginMotion(motion.kind == MotionKind::Feed);
         const toolpath::FeedRate rate = feed.value_or(toolpath::FeedRate{});
-        const Vector3& tip_mm = motion.location.tip_mm;
-        if (!cutting) return reachPart(tip_mm, motion.kind, rate);
-        const bool mended = !planned.rewind && !planned.in_pole_cone;
-        const kinematics::PathPoint point{.tip_mm = tip_mm,
-                                          .rotary_rad = planned.rotary_rad,
-                                          .line = line,
-                                          .cutting = motion.kind == MotionKind::Feed,
-                                          .rewind = !mended};
-        for (const kinematics::PathPoint& next : refiner.advance(point))
-            emit(Move{next.tip_mm, next.rotary_rad, motion.kind, rate});
-        tip = tip_mm;
+        const ToolPose to = poseAt(motion.location);
+        if (!cutting) return reachPart(to, motion.kind, rate);
+        way.moveTo(to, motion.kind, rate, !planned.rewind && !planned.in_pole_cone);
     }
 
     void take(const toolpath::ArcMotion& arc) {
         beginMotion(true);
         if (!cutting)
             return report.error("post.arc-start", "the path begins with an arc: where it starts is not known", here());
-        const auto rate = feed.value_or(toolpath::FeedRate{});
-        for (NcItem& item : arcSteps(arc, tip, planned.rotary_rad, rate, options.chord_tolerance_mm))
-            sink.step({std::move(item), line});
-        standAt(arc.end.tip_mm);
+        way.arcTo(arc, poseAt(arc.end), feed.value_or(toolpath::FeedRate{}));
     }
 
     void take(const toolpath::HoleLocation& hole) {
         beginMotion(false);
         const auto drilling = planHole(*cycle, hole.location, spindle, feed);
         if (!drilling) return report.error("post.cycle", drilling.error(), here());
-        Vector3 above = hole.location.tip_mm;
-        above.z() = drilling->retract_z_mm;
+        ToolPose above = poseAt(hole.location);
+        above.tip_mm.z() = drilling->retract_z_mm;
         if (!cutting) reachPart(above, MotionKind::Rapid, {});
         if (cycle_told != *drilling) emit(*drilling);
         cycle_told = *drilling;
-        emit(HolePosition{above.x(), above.y(), planned.rotary_rad});
-        standAt(above);
+        emit(HolePosition{above.tip_mm.x(), above.tip_mm.y(), planned.rotary_rad});
+        way.standAt(above);
     }
 
+    [[nodiscard]] ToolPose poseAt(const toolpath::CutterLocation& location) const {
+        return {location.tip_mm, location.axis, planned.rotary_rad, line};
+    }
     void beginMotion(bool cut) {
         ++summary.cutter_locations;
         checkMotion(cut);
         if (planned.in_pole_cone && last_rotary) tellPoleCone(*last_rotary);
         countRotary(planned.rotary_rad);
-    }
-    /// The tool got there by a way that is not the refiner's.
-    void standAt(const Vector3& tip_mm) {
-        tip = tip_mm;
-        refiner.interrupt();
-        static_cast<void>(refiner.advance({.tip_mm = tip_mm, .rotary_rad = planned.rotary_rad, .line = line}));
     }
     void endHoleCycle() {
         if (cycle_told) emit(HoleCycleOff{});
@@ -266,21 +245,20 @@ struct ProgramPlanner::State {
     }
 
     // --- sequences ---
-    void reachPart(const Vector3& tip_mm, MotionKind kind, const toolpath::FeedRate& rate) {
+    void reachPart(const ToolPose& pose, MotionKind kind, const toolpath::FeedRate& rate) {
         emit(Smoothing{true});
-        emit(SelectWorkOffset{});
+        emit(SelectWorkOffset{work_offset});
         tellSpindle();
         tellCoolant();
         if (rotary_count > 0) emit(PositionRotary{planned.rotary_rad});
-        emit(TipProgramming{true});
-        emit(Approach{tip_mm, planned.rotary_rad, kind, rate});
+        way.begin(tool ? &*tool : nullptr, work_offset, line);
+        way.approach(pose, kind, rate);
         cutting = true;
-        standAt(tip_mm);
     }
 
     void leavePart() {
         endHoleCycle();
-        emit(TipProgramming{false});
+        way.end(line);
         if (spindle_told.turn != SpindleCommand::Turn::Off) emit(Spindle{});
         if (coolant_told != CoolantCommand::Kind::Off) emit(Coolant{});
         spindle_told = {};
@@ -374,12 +352,13 @@ PostSummary ProgramPlanner::finish() {
     state.emit(Smoothing{false});
     state.emit(End{});
     state.report.append(state.axes.report());
-    state.report.append(state.refiner.report());
-    const kinematics::RefinerSummary& refined = state.refiner.summary();
-    state.summary.inserted_blocks = refined.inserted;
+    state.report.append(state.way.refiner().report());
+    const kinematics::RefinerSummary& refined = state.way.refiner().summary();
+    state.summary.inserted_blocks = refined.inserted + state.way.linearised();
+    state.summary.largest_chord_error_mm = state.way.largestChordError();
     state.countDeviation(refined.max_deviation_rad, refined.max_deviation_line);
     state.summary.limit_violations += state.axes.summary().limit_violations + state.axes.summary().unreached +
-                                      state.axes.summary().rewinds + state.refiner.report().errorCount();
+                                      state.axes.summary().rewinds + state.way.refiner().report().errorCount();
     return state.summary;
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -50,6 +51,7 @@ struct SinumerikWriter::State {
         if (head.work_offset.empty()) head.work_offset = file.control.work_offset;
         linear_decimals = static_cast<int>(file.control.format.linear_decimals);
         rotary_decimals = static_cast<int>(file.control.format.rotary_decimals);
+        vector_decimals = static_cast<int>(file.control.format.vector_decimals);
     }
 
     TextSink out;
@@ -58,6 +60,8 @@ struct SinumerikWriter::State {
     std::vector<std::string> rotary_names;
     int linear_decimals = 5;
     int rotary_decimals = 5;
+    int vector_decimals = 6;
+    bool vectors = false;  ///< the tool axis is told as A3, B3, C3
 
     std::string buffer;
     std::size_t first_word = 0;  ///< where the words of the open block begin
@@ -66,8 +70,9 @@ struct SinumerikWriter::State {
     // What the control already knows, in print; empty after anything that moves the axes in another frame.
     std::array<std::optional<std::int64_t>, 3> linear;
     std::array<std::optional<std::int64_t>, 2> rotary;
+    std::optional<std::array<std::int64_t, 3>> vector;
     std::optional<std::int64_t> feed;
-    std::optional<FeedRate::Unit> feed_unit;
+    std::string_view feed_mode;  ///< G93, G94, G95
     std::optional<int> motion_code;
 
     // --- one block ---
@@ -113,6 +118,7 @@ struct SinumerikWriter::State {
     void forgetPosition() {
         linear = {};
         rotary = {};
+        vector.reset();
         motion_code.reset();
     }
     void motionCode(int code) {
@@ -136,13 +142,30 @@ struct SinumerikWriter::State {
             value(rotary_names[i], fixed, rotary_decimals);
         }
     }
-    /// A change between mm/min and mm/rev makes the old F meaningless.
-    void feedMode(const FeedRate& rate) {
-        if (feed_unit == rate.unit) return;
-        feed_unit = rate.unit;
-        feed.reset();
-        word(rate.unit == FeedRate::Unit::MmPerRev ? "G95" : "G94");
+    /// A component left out would be 0, so a direction is told whole.
+    void vectorWords(const geometry::Vector3& axis) {
+        const std::array<std::int64_t, 3> fixed{toFixed(axis.x(), vector_decimals), toFixed(axis.y(), vector_decimals),
+                                                toFixed(axis.z(), vector_decimals)};
+        if (vector == fixed) return;
+        vector = fixed;
+        static constexpr std::array<std::string_view, 3> names{"A3", "B3", "C3"};
+        for (std::size_t i = 0; i < fixed.size(); ++i) value(names[i], fixed[i], vector_decimals);
     }
+    template <class Motion>
+    void orientationWords(const Motion& item) {
+        if (vectors)
+            vectorWords(item.axis);
+        else
+            rotaryWords(item.rotary_rad);
+    }
+    /// Another kind of feed makes the old F meaningless.
+    void feedMode(std::string_view mode) {
+        if (feed_mode == mode) return;
+        feed_mode = mode;
+        feed.reset();
+        word(mode);
+    }
+    void feedMode(const FeedRate& rate) { feedMode(rate.unit == FeedRate::Unit::MmPerRev ? "G95" : "G94"); }
     void feedWord(const FeedRate& rate) {
         const int decimals = static_cast<int>(file.control.format.feed_decimals);
         const double written =
@@ -152,13 +175,21 @@ struct SinumerikWriter::State {
         feed = fixed;
         value("F", fixed, decimals);
     }
+    /// Under G93 every block has its own F; six digits of it hold the feed to a millionth.
+    void inverseTimeWord(double per_min) {
+        constexpr int digits = 6;
+        const int whole = static_cast<int>(std::ceil(std::log10(per_min)));
+        const int decimals = std::clamp(digits - whole, 0, 9);
+        feed.reset();
+        value("F", toFixed(per_min, decimals), decimals);
+    }
 
     // --- items ---
     void write(const Comment& item) { comment(item.text); }
 
     void write(const ModalStart&) {
         block(file.control.start_codes);
-        feed_unit.reset();
+        feed_mode = {};
         if (!rotary_names.empty()) block("TRAFOOF");
     }
 
@@ -211,8 +242,8 @@ struct SinumerikWriter::State {
 
     void write(const ScreenMessage& item) { block("MSG(\"" + printable(item.text) + "\")"); }
 
-    void write(const SelectWorkOffset&) {
-        block(head.work_offset);
+    void write(const SelectWorkOffset& item) {
+        block(item.name.empty() ? head.work_offset : item.name);
         linear = {};
     }
 
@@ -245,34 +276,64 @@ struct SinumerikWriter::State {
         if (rotary_names.empty()) return;
         block(item.on ? "TRAORI" : "TRAFOOF");
         forgetPosition();
+        vectors = item.on && item.vectors;
         if (!item.on) return;
         // TRAORI drops the frame; the offset is called again behind it.
-        block(head.work_offset);
-        block(file.control.md21104_ori_ipo_with_g_code ? "ORIAXES" : "ORIMKS");
+        block(item.work_offset.empty() ? head.work_offset : item.work_offset);
+        // MD21104 decides which of the two groups acts (PGA p. 7-7); vectors are always read in the frame of ORIWKS.
+        const bool by_group_51 = file.control.md21104_ori_ipo_with_g_code;
+        if (item.vectors)
+            block(by_group_51 ? "ORIWKS ORIVECT" : "ORIWKS");
+        else
+            block(by_group_51 ? "ORIAXES" : "ORIMKS");
+    }
+
+    void write(const AxisProgramming& item) {
+        std::string text = "positions for tool length ";
+        const auto add = [&](double mm) { appendFixed(text, toFixed(mm, 4), 4); };
+        add(item.tool_length_mm);
+        text += " mm, work offset at X";
+        add(item.wcs_origin_mm.x());
+        text += " Y";
+        add(item.wcs_origin_mm.y());
+        text += " Z";
+        add(item.wcs_origin_mm.z());
+        comment(text + " in the machine");
+        vectors = false;
     }
 
     void write(const Approach& item) {
         openBlock();
         motionCode(0);
-        linearWord(0, item.tip_mm.x());
-        linearWord(1, item.tip_mm.y());
-        rotaryWords(item.rotary_rad);
+        linearWord(0, item.point_mm.x());
+        linearWord(1, item.point_mm.y());
+        orientationWords(item);
         closeBlock();
         openBlock();
         if (item.kind == MotionKind::Feed) feedMode(item.feed);
         motionCode(item.kind == MotionKind::Rapid ? 0 : 1);
-        linearWord(2, item.tip_mm.z());
+        linearWord(2, item.point_mm.z());
         if (item.kind == MotionKind::Feed) feedWord(item.feed);
         closeBlock();
     }
 
     void write(const Move& item) {
+        const bool timed = item.moves_per_min > 0.0;
         openBlock();
-        if (item.kind == MotionKind::Feed) feedMode(item.feed);
+        if (item.kind == MotionKind::Feed) {
+            if (timed)
+                feedMode("G93");
+            else
+                feedMode(item.feed);
+        }
+        const std::size_t before = buffer.size();
         motionCode(item.kind == MotionKind::Rapid ? 0 : 1);
-        for (std::size_t axis = 0; axis < 3; ++axis) linearWord(axis, item.tip_mm[static_cast<Eigen::Index>(axis)]);
-        rotaryWords(item.rotary_rad);
-        if (item.kind == MotionKind::Feed) feedWord(item.feed);
+        for (std::size_t axis = 0; axis < 3; ++axis) linearWord(axis, item.point_mm[static_cast<Eigen::Index>(axis)]);
+        orientationWords(item);
+        if (timed && buffer.size() > before)
+            inverseTimeWord(item.moves_per_min);
+        else if (item.kind == MotionKind::Feed && !timed)
+            feedWord(item.feed);
         // A point that equals the last one in print: the machine has nothing to do.
         closeOrDrop();
     }
@@ -289,7 +350,7 @@ struct SinumerikWriter::State {
         linearWord(2, item.end_mm.z());
         value("I", toFixed(item.center_from_start_mm.x(), linear_decimals), linear_decimals);
         value("J", toFixed(item.center_from_start_mm.y(), linear_decimals), linear_decimals);
-        rotaryWords(item.rotary_rad);
+        if (!vectors) rotaryWords(item.rotary_rad);
         feedWord(item.feed);
         closeBlock();
     }
@@ -310,7 +371,7 @@ struct SinumerikWriter::State {
         linear[1].reset();
         linearWord(0, item.x_mm);
         linearWord(1, item.y_mm);
-        rotaryWords(item.rotary_rad);
+        if (!vectors) rotaryWords(item.rotary_rad);
         closeBlock();
         // The cycle leaves the tool at its retract height.
         linear[2].reset();

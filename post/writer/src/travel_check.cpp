@@ -3,11 +3,14 @@
 // What each step of a program does to the axes.
 #include <cusp/post/writer/travel_check.hpp>
 
+#include "machine_axes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace cusp::post {
@@ -71,16 +74,22 @@ struct TravelCheck::State {
     bool tool_known = false;
     bool tool_spoken_of = false;
     std::uint32_t line = 0;
-    Vector3 tip = Vector3::Zero();
+    Vector3 at = Vector3::Zero();  ///< as programmed
     RotaryValues rotary_rad{};
     double retract_z_mm = 0.0;
     double bottom_z_mm = 0.0;
+    std::optional<MachineAxes> axes;  ///< points are positions of the axes
 
     [[nodiscard]] bool follows() const { return placed && tool_known; }
 
-    void go(const Vector3& tip_mm, const RotaryValues& rotary) {
-        if (follows()) travel.moveTo(tip_mm, rotary, line);
-        tip = tip_mm;
+    /// The tip for a programmed point.
+    [[nodiscard]] Vector3 tipOf(const Vector3& point_mm, const RotaryValues& rotary) const {
+        const auto frame = axes ? axes->programmedFromWorkpiece(rotary) : std::nullopt;
+        return frame ? Vector3(frame->inverse() * point_mm) : point_mm;
+    }
+    void go(const Vector3& point_mm, const RotaryValues& rotary) {
+        if (follows()) travel.moveTo(tipOf(point_mm, rotary), rotary, line);
+        at = point_mm;
         rotary_rad = rotary;
     }
 
@@ -102,23 +111,34 @@ struct TravelCheck::State {
         rotary_rad = item.rotary_rad;
     }
     void see(const TipProgramming& item) {
-        if (!item.on) return;
+        axes.reset();
+        if (item.on) begin();
+    }
+    void see(const AxisProgramming& item) {
+        axes.emplace(machine, NumberFormat());
+        axes->setUp(item.tool_length_mm, item.wcs_origin_mm);
+        begin();
+    }
+    void begin() {
         if (!std::exchange(tool_spoken_of, true))
             report.error("post.setup-tool",
                          "no tool is called, so the setup cannot say how long it is and linear travel is unknown",
                          {cl_file, line, 0, {}});
-        tip = travel.tip().value_or(tip);
+        const auto tip = travel.tip();
+        if (!tip) return;
+        const auto frame = axes ? axes->programmedFromWorkpiece(rotary_rad) : std::nullopt;
+        at = frame ? Vector3(*frame * *tip) : *tip;
     }
     /// In the plane first, at the height the tip has at home.
     void see(const Approach& item) {
-        go({item.tip_mm.x(), item.tip_mm.y(), tip.z()}, item.rotary_rad);
-        go(item.tip_mm, item.rotary_rad);
+        go({item.point_mm.x(), item.point_mm.y(), at.z()}, item.rotary_rad);
+        go(item.point_mm, item.rotary_rad);
     }
-    void see(const Move& item) { go(item.tip_mm, item.rotary_rad); }
+    void see(const Move& item) { go(item.point_mm, item.rotary_rad); }
 
     /// The rotary axes stand still, so that chords within the bound of the arc are within the bound of the axes' ways.
     void see(const ArcMove& item) {
-        const Vector3 start = tip;
+        const Vector3 start = at;
         const Vector3 center = start + item.center_from_start_mm;
         const double from = std::atan2(start.y() - center.y(), start.x() - center.x());
         const double to = std::atan2(item.end_mm.y() - center.y(), item.end_mm.x() - center.x());
@@ -144,7 +164,7 @@ struct TravelCheck::State {
         bottom_z_mm = item.surface_z_mm - item.depth_mm;
     }
     void see(const HolePosition& item) {
-        go({item.x_mm, item.y_mm, tip.z()}, item.rotary_rad);
+        go({item.x_mm, item.y_mm, at.z()}, item.rotary_rad);
         go({item.x_mm, item.y_mm, bottom_z_mm}, item.rotary_rad);
         go({item.x_mm, item.y_mm, retract_z_mm}, item.rotary_rad);
     }

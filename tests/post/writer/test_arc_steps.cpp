@@ -35,8 +35,8 @@ TEST(ArcSteps, SweepFollowsTheNormal) {
 }
 
 TEST(ArcSteps, AboutZIsOneCircularBlock) {
-    const auto steps =
-        arcSteps(arcAbout(-Vector3::UnitZ(), Vector3(1, 2, 5), Vector3(1, 12, 7)), Vector3(11, 2, 5), {}, {}, 0.005);
+    const auto steps = arcSteps(arcAbout(-Vector3::UnitZ(), Vector3(1, 2, 5), Vector3(1, 12, 7)), Vector3(11, 2, 5),
+                                Eigen::Affine3d::Identity(), {}, {}, 0.005);
     ASSERT_EQ(steps.size(), 1U);
     const auto& arc = std::get<ArcMove>(steps[0]);
     EXPECT_TRUE(arc.clockwise);
@@ -59,11 +59,12 @@ TEST(ArcSteps, ChordsStayWithinToleranceAndAreAsFewAsCanBe) {
         const Vector3 rise = normal * unit(engine) * 20;
         const Vector3 end = center + radius * (out * std::cos(sweep) + normal.cross(out) * std::sin(sweep)) + rise;
         const double tolerance = 0.005;
-        const auto steps = arcSteps(arcAbout(normal, center, end), center + radius * out, {}, {}, tolerance);
+        const auto steps = arcSteps(arcAbout(normal, center, end), center + radius * out, Eigen::Affine3d::Identity(),
+                                    {}, {}, tolerance);
         Vector3 from = center + radius * out;
         double worst = 0.0;
         for (const NcItem& step : steps) {
-            const Vector3 to = std::get<Move>(step).tip_mm;
+            const Vector3 to = std::get<Move>(step).point_mm;
             const Vector3 middle = (from + to) / 2.0 - center;
             worst = std::max(worst, radius - (middle - normal * normal.dot(middle)).norm());
             const Vector3 corner = to - center;

@@ -86,6 +86,38 @@ TEST_F(Writer, OrientationCommandFollowsMD21104) {
     EXPECT_EQ(write(TipProgramming{true}), "; P\nN10 TRAORI\nN20 G54\nN30 ORIMKS\n");
 }
 
+TEST_F(Writer, VectorsAreToldWholeAndOnlyWhenTheyChange) {
+    Move first = feedMove(1, 2, 3, 90, 30, 600);
+    first.axis = {0.5, 0.0, 0.8660254037844387};
+    Move second = first;
+    second.point_mm.x() = 2;
+    Move third = second;
+    third.axis = {0.0, 0.0, 1.0};
+    EXPECT_EQ(write(TipProgramming{true, true}, first, second, third),
+              "; P\n"
+              "N10 TRAORI\n"
+              "N20 G54\n"
+              "N30 ORIWKS ORIVECT\n"
+              "N40 G94 G1 X1 Y2 Z3 A3=0.5 B3=0 C3=0.866025 F600\n"
+              "N50 X2\n"
+              "N60 A3=0 B3=0 C3=1\n");
+    file.control.md21104_ori_ipo_with_g_code = false;
+    EXPECT_EQ(write(TipProgramming{true, true}), "; P\nN10 TRAORI\nN20 G54\nN30 ORIWKS\n");
+}
+
+TEST_F(Writer, InverseTimeHasAFeedInEveryBlock) {
+    Move timed = feedMove(1, 0, 0, 0, 1, 600);
+    timed.moves_per_min = 1234.5678;
+    Move slow = feedMove(2, 0, 0, 0, 2, 600);
+    slow.moves_per_min = 0.0123456789;
+    EXPECT_EQ(write(feedMove(0, 0, 0, 0, 0, 600), timed, slow, slow, feedMove(3, 0, 0, 0, 2, 600)),
+              "; P\n"
+              "N10 G94 G1 X0 Y0 Z0 C0 A0 F600\n"
+              "N20 G93 X1 A1 F1234.57\n"
+              "N30 X2 A2 F0.0123457\n"
+              "N40 G94 X3 F600\n");
+}
+
 TEST_F(Writer, ApproachGoesInThePlaneFirst) {
     const Approach rapid{{10, 20, 30}, {0, 0}, MotionKind::Rapid, {}};
     EXPECT_EQ(write(PositionRotary{{0, 0}}, rapid), "; P\nN10 G0 C0 A0\nN20 X10 Y20\nN30 Z30\n");

@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace cusp::post {
 
@@ -21,6 +23,13 @@ struct NumberFormat {
     std::int64_t vector_decimals = 6;
     std::int64_t feed_decimals = 3;
     std::int64_t speed_decimals = 0;
+};
+
+/// How a program says where the tool is.
+enum class ProgramForm : std::uint8_t {
+    TraoriRotary,   ///< TRAORI: tip, and positions of the rotary axes
+    TraoriVectors,  ///< TRAORI: tip, and the tool axis as A3, B3, C3
+    Machine         ///< no transformation: positions of all axes, tool length and pivot resolved here
 };
 
 struct ControlDefinition {
@@ -35,12 +44,16 @@ struct ControlDefinition {
     double cycle832_tolerance_mm = 0.01;
     /// Key `cycle832_orientation_tolerance_deg`; the form from 4.5 demands one. 0.1° is an assumed finishing value.
     double cycle832_orientation_tolerance_rad = base::radFromDeg(0.1);
+    ProgramForm form = ProgramForm::TraoriRotary;
     std::string start_codes = "G40 G17 G710 G94 G90 G60 G601 FNORM";
     std::string work_offset = "G54";
     std::int64_t block_number_step = 10;  ///< 0: no block numbers
     std::string retract_axis = "Z";       ///< goes home alone, before all others
     NumberFormat format;
 };
+
+/// The words of a file or a flag for each form: "traori-rotary", "traori-vectors", "machine".
+[[nodiscard]] const std::vector<std::pair<std::string, ProgramForm>>& programFormWords();
 
 /// One file, two rooms: `machine` belongs to kinematics, `control` to post.
 struct MachineFile {

@@ -42,7 +42,10 @@ struct ScreenMessage {
     std::string text;
 };
 
-struct SelectWorkOffset {};
+/// The settable frame by its name; empty: the machine file's.
+struct SelectWorkOffset {
+    std::string name;
+};
 
 struct Spindle {
     toolpath::SpindleCommand::Turn turn = toolpath::SpindleCommand::Turn::Off;
@@ -60,29 +63,44 @@ struct PositionRotary {
     RotaryValues rotary_rad{};
 };
 
-/// Tool-tip programming on (TRAORI on an 840D): from here X, Y, Z are the tip in the workpiece frame.
+/// Tool-tip programming (TRAORI on an 840D): from here points are the tip in the workpiece frame, and the control turns
+/// the rotary axes to where they are told, or to where they give the tool axis that is told.
 struct TipProgramming {
     bool on = true;
+    bool vectors = false;
+    std::string work_offset = {};  ///< called again behind it; empty: the machine file's
+};
+
+/// No transformation: from here points are positions of the linear axes, shifted so that they are the tip while all rotary
+/// axes are at zero. They hold for this tool length and this place of the work offset.
+struct AxisProgramming {
+    double tool_length_mm = 0.0;                                       ///< gauge point to tip
+    geometry::Vector3 wcs_origin_mm = geometry::Vector3::Zero();  ///< machine frame, all axes at zero
 };
 
 /// To the first point with a tool: rapid in the plane at home height, then down, at feed when the CL file feeds there.
+///
+/// Points of motions are as programmed: the tip in the workpiece frame, but for AxisProgramming.
 struct Approach {
-    geometry::Vector3 tip_mm = geometry::Vector3::Zero();
+    geometry::Vector3 point_mm = geometry::Vector3::Zero();
     RotaryValues rotary_rad{};
     toolpath::MotionKind kind = toolpath::MotionKind::Rapid;
-    toolpath::FeedRate feed;  ///< meaningful when kind is Feed
+    toolpath::FeedRate feed;                              ///< meaningful when kind is Feed
+    geometry::Vector3 axis = geometry::Vector3::UnitZ();  ///< unit, workpiece frame
 };
 
-/// A straight move of the tip with the rotary axes moving along.
+/// A straight move with the rotary axes moving along.
 struct Move {
-    geometry::Vector3 tip_mm = geometry::Vector3::Zero();
+    geometry::Vector3 point_mm = geometry::Vector3::Zero();
     RotaryValues rotary_rad{};
     toolpath::MotionKind kind = toolpath::MotionKind::Feed;
-    toolpath::FeedRate feed;  ///< meaningful when kind is Feed
+    toolpath::FeedRate feed;                              ///< meaningful when kind is Feed
+    geometry::Vector3 axis = geometry::Vector3::UnitZ();  ///< unit, workpiece frame
+    double moves_per_min = 0.0;                           ///< > 0: the feed as inverse time instead
 };
 
-/// A circular or helical move in the XY plane of the workpiece frame; the rotary axes stand still. Arcs in other planes
-/// become straight moves before they get here: a change of plane would turn the tool length into another axis.
+/// A circular or helical move in the XY plane of the points; the rotary axes stand still. Arcs in other planes become
+/// straight moves before they get here: a change of plane would turn the tool length into another axis.
 struct ArcMove {
     geometry::Vector3 end_mm = geometry::Vector3::Zero();
     geometry::Vector3 center_from_start_mm = geometry::Vector3::Zero();
@@ -127,7 +145,7 @@ struct Stop {
 struct End {};
 
 using NcItem = std::variant<Comment, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset,
-                            Spindle, Coolant, PositionRotary, TipProgramming, Approach, Move, ArcMove, HoleCycle,
+                            Spindle, Coolant, PositionRotary, TipProgramming, AxisProgramming, Approach, Move, ArcMove, HoleCycle,
                             HolePosition, HoleCycleOff, Pause, Stop, End>;
 
 /// One step of the program and the CL line it stands for (0: none).

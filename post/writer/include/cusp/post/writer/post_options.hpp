@@ -5,7 +5,10 @@
 
 #include <cusp/base/toml_schema.hpp>
 #include <cusp/base/units.hpp>
+#include <cusp/post/control/control_definition.hpp>
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -20,12 +23,24 @@ struct PostOptions {
     std::string work_offset;
     /// Setup file: where the workpiece lies and how long the tools are. Empty: linear travel is not checked.
     std::string setup;
+    /// Overrides the machine file's.
+    std::optional<ProgramForm> form;
+    /// Lengths of tools from the gauge point to the tip, by number or name, and of all others: programs without TRAORI hold
+    /// them.
+    std::map<std::string, double> tool_lengths_mm;
+    std::optional<double> tool_length_mm;
+    /// The work offset's origin in the machine frame, all axes at zero: programs without TRAORI for machines with a rotary
+    /// table hold it.
+    std::optional<std::array<double, 3>> wcs_origin_mm;
+    /// The same by the name of the offset; no key of the job file, the setup file has them.
+    std::map<std::string, std::array<double, 3>> offset_origins_mm;
     /// How far the tool axis may leave the great circle between two points of the CL file while cutting.
     double orientation_tolerance_rad = base::radFromDeg(0.05);
     /// Where rotary limits force a change of branch in a cut, it is made this close to the pole at most, and told; the tool
     /// axis leaves its way by up to as much. 0: such a path is refused.
     double pole_cone_rad = base::radFromDeg(3.0);
-    /// How far the chords of arcs the control cannot drive as such may be from them.
+    /// How far the tip may be from its way between block ends: on the chords of arcs the control cannot drive as such, and
+    /// without TRAORI where all axes run linearly.
     double chord_tolerance_mm = 0.005;
     /// A cut with the spindle off is an error instead of a warning.
     bool strict = false;

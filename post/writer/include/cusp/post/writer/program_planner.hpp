@@ -25,8 +25,10 @@ struct PostSummary {
     std::size_t operations = 0;
     std::size_t tool_changes = 0;
     std::size_t limit_violations = 0;
-    /// Moves put between cutter locations so that the tool axis keeps its way, and how far it still leaves it.
+    /// Moves put between cutter locations so that tool axis and tip keep their way, and how far they still leave it: the
+    /// tip by no more than a proven bound, and without TRAORI only.
     std::size_t inserted_blocks = 0;
+    double largest_chord_error_mm = 0.0;
     double largest_axis_deviation_rad = 0.0;
     std::uint32_t largest_axis_deviation_cl_line = 0;
     /// Smallest and largest value of each rotary axis, in chain order.
@@ -37,6 +39,11 @@ struct PostSummary {
     std::size_t largest_rotary_step_axis = 0;
     std::uint32_t largest_rotary_step_cl_line = 0;
 };
+
+/// The machine file's decimals, or more where those would put a block end further than 0.001 mm or 0.001° from where it
+/// should be: half a unit in the last place of each linear axis, of each rotary axis (in a program without TRAORI at the
+/// end of a lever arm of a metre, or the longest the machine file has), of each vector component. Raising one is told.
+[[nodiscard]] NumberFormat sufficientFormat(const MachineFile& file, ProgramForm form, base::Diagnostics& report);
 
 /// A streaming stage: memory is bounded by the branch planner's window, not by the path.
 class ProgramPlanner {
