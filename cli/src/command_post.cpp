@@ -190,8 +190,7 @@ ExitCode runPost(const Flags& flags) {
 
     PostOutcome outcome{.cl_file = flags.cl_file, .output = flags.output, .machine = *machine};
     base::Diagnostics planning;
-    machine->file.control.format =
-        post::sufficientFormat(machine->file, formOf(*options, *machine), planning);
+    machine->file.control.format = post::sufficientFormat(machine->file, formOf(*options, *machine), planning);
     post::SinumerikWriter writer([&file](std::string_view text) { file.write(text); }, machine->file,
                                  headOf(flags, *options, *machine, *setup));
     std::optional<post::TravelCheck> travel;

@@ -68,9 +68,10 @@ const base::Section<PostOptions>& postSection() {
             .field("spindle_rpm", &PostOptions::spindle_rpm,
                    "Spindle speed, clockwise, for CL files that give none before the first cut.", base::positive())
             .field("work_offset", &PostOptions::work_offset, "Work offset, e.g. G54. Empty: the machine file's.")
-            .field("setup", &PostOptions::setup,
-                   "Setup file, which says where the workpiece lies and how long the tools are. Empty: linear travel is "
-                   "not checked.")
+            .field(
+                "setup", &PostOptions::setup,
+                "Setup file, which says where the workpiece lies and how long the tools are. Empty: linear travel is "
+                "not checked.")
             .choice<std::optional<ProgramForm>>(
                 "form", &PostOptions::form, programFormWords(),
                 "How the program says where the tool is: traori-rotary, traori-vectors or machine. Absent: the machine "

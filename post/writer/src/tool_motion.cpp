@@ -51,14 +51,7 @@ ToolMotion::ToolMotion(const MachineFile& file, const kinematics::Machine& machi
       machine_axes_(machine, file.control.format),
       lineariser_(machine, machine_axes_,
                   {.tolerance_mm = options.chord_tolerance_mm,
-                   .orientation_tolerance_rad = options.orientation_tolerance_rad}) {
-    if (form_ != ProgramForm::Machine || !machine_axes_.needsOrigin() || options.wcs_origin_mm) return;
-    report_.error(
-        "post.wcs-origin",
-        "without TRAORI, a program for a machine with a rotary table needs the place of the work offset in the "
-        "machine: --wcs-origin-mm X Y Z",
-        {cl_file_, 0, 0, {}});
-}
+                   .orientation_tolerance_rad = options.orientation_tolerance_rad}) {}
 
 void ToolMotion::begin(const ChangeTool* tool, const std::string& work_offset, std::uint32_t line) {
     if (form_ == ProgramForm::Machine) return setUpAxes(tool, work_offset, line);
@@ -86,11 +79,12 @@ void ToolMotion::setUpAxes(const ChangeTool* tool, const std::string& work_offse
     if (const auto known = options_.offset_origins_mm.find(work_offset); known != options_.offset_origins_mm.end())
         origin = known->second;
     if (!origin && machine_axes_.needsOrigin())
-        report_.error("post.wcs-origin",
-                      fmt::format("without TRAORI, a program for a machine with a rotary table needs to know where {} lies in "
-                                  "the machine: --setup or --wcs-origin-mm",
-                                  work_offset),
-                      {cl_file_, line, 0, {}});
+        report_.error(
+            "post.wcs-origin",
+            fmt::format("without TRAORI, a program for a machine with a rotary table needs to know where {} lies in "
+                        "the machine: --setup or --wcs-origin-mm",
+                        work_offset),
+            {cl_file_, line, 0, {}});
     const Vector3 origin_mm = geometry::toVector(origin.value_or(std::array<double, 3>{}));
     machine_axes_.setUp(length_mm.value_or(0.0), origin_mm);
     sink_.step({AxisProgramming{length_mm.value_or(0.0), origin_mm}, line});

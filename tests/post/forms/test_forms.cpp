@@ -115,9 +115,10 @@ TEST(MachineForm, WithoutTheToolsLengthOrTheOriginItIsRefused) {
     EXPECT_EQ(base::toText(post(cl, shippedMachine("head-c200-a95"), options).report),
               "P.cls:8: error: without TRAORI the program holds the length of the tool: give that of \"BALL_6\" with "
               "--setup or --tool-length-mm [post.tool-length]\n");
-    EXPECT_EQ(base::toText(post(cl, shippedMachine("trunnion-ac"), options).report),
-              "P.cls:8: error: without TRAORI, a program for a machine with a rotary table needs to know where G54 lies in "
-              "the machine: --setup or --wcs-origin-mm [post.wcs-origin]\n");
+    EXPECT_EQ(
+        base::toText(post(cl, shippedMachine("trunnion-ac"), options).report),
+        "P.cls:8: error: without TRAORI, a program for a machine with a rotary table needs to know where G54 lies in "
+        "the machine: --setup or --wcs-origin-mm [post.wcs-origin]\n");
     options.tool_lengths_mm["BALL_6"] = 100.0;
     EXPECT_FALSE(post(cl, shippedMachine("head-c200-a95"), options).report.hasErrors());
 }

@@ -120,7 +120,7 @@ TEST_F(Planner, OneOperation) {
                     "comment work offset: the programming frame, origin X0.0000 Y0.0000 Z0.0000 mm in the part\n"
                     "change-tool \"BALL_6\"\n"
                     "smoothing on\n"
-                    "work-offset\n"
+                    "work-offset G54\n"
                     "spindle cw 8000.000 rpm\n"
                     "coolant flood\n"
                     "position-rotary C90.0000 A0.0000\n"

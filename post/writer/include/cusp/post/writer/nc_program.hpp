@@ -74,7 +74,7 @@ struct TipProgramming {
 /// No transformation: from here points are positions of the linear axes, shifted so that they are the tip while all rotary
 /// axes are at zero. They hold for this tool length and this place of the work offset.
 struct AxisProgramming {
-    double tool_length_mm = 0.0;                                       ///< gauge point to tip
+    double tool_length_mm = 0.0;                                  ///< gauge point to tip
     geometry::Vector3 wcs_origin_mm = geometry::Vector3::Zero();  ///< machine frame, all axes at zero
 };
 
@@ -145,8 +145,8 @@ struct Stop {
 struct End {};
 
 using NcItem = std::variant<Comment, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset,
-                            Spindle, Coolant, PositionRotary, TipProgramming, AxisProgramming, Approach, Move, ArcMove, HoleCycle,
-                            HolePosition, HoleCycleOff, Pause, Stop, End>;
+                            Spindle, Coolant, PositionRotary, TipProgramming, AxisProgramming, Approach, Move, ArcMove,
+                            HoleCycle, HolePosition, HoleCycleOff, Pause, Stop, End>;
 
 /// One step of the program and the CL line it stands for (0: none).
 struct NcStep {
