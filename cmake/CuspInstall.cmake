@@ -7,6 +7,7 @@ include(CMakePackageConfigHelpers)
 set(packages
   "tl::expected=tl-expected"
   "fmt::fmt=fmt"
+  "Ceres::ceres=Ceres"
   "tomlplusplus::tomlplusplus=tomlplusplus"
   "Eigen3::Eigen=Eigen3 3.4"
   "nlohmann_json::nlohmann_json=nlohmann_json"
