@@ -50,3 +50,14 @@ export function contrast(one, other) {
     const [high, low] = [luminance(one), luminance(other)].sort((a, b) => b - a);
     return (high + 0.05) / (low + 0.05);
 }
+
+/** Every text of the page against what lies under it: WCAG 2.2 AA, 4.5 : 1. */
+export async function assertReadable(page) {
+    const pairs = await page.evaluate(`[...document.querySelectorAll("h1, h2, h3, p, td, th, dt, dd, li, button, .word, .why, .tag")].map((e) => {
+        let ground = e;
+        while (getComputedStyle(ground).backgroundColor === "rgba(0, 0, 0, 0)") ground = ground.parentElement;
+        return [getComputedStyle(e).color, getComputedStyle(ground).backgroundColor, e.textContent.slice(0, 40)];
+    })`);
+    assert.ok(pairs.length > 30);
+    for (const [ink, ground, text] of pairs) assert.ok(contrast(ink, ground) >= 4.5, `${text}: ${ink} on ${ground}`);
+}

@@ -127,3 +127,36 @@ export function inspectionSample({ rows = 100, columns = 120, seed = 7 } = {}) {
         notes: ["Sliding along the surface is weakly determined: x and y are known to about 1 \u00b5m only."],
     };
 }
+
+/** Names, units and values like those of Fountas 2017, fig. 12. */
+const fig12 = [["a", 0.3, "um"], ["q", 0.369, "um"], ["p", 0.93, "um"], ["v", 0.89, "um"], ["t", 1.82, "um"], ["sk", 0.0877, ""], ["z", 1.82, "um"],
+    ["Dq", 4.04, "deg"], ["Tp", 56.4, "percent", "1 um under the highest peak"], ["Vo", 0.000395, "mm3_per_mm2", "lid at 20%"], ["Sm", 0.0444, "mm"],
+    ["zJIS", 1.27, "um"], ["HSC", 21, "peaks", "1 um under the highest peak"], ["fd", 1.36, ""]];
+
+/** A stylus profile as `cusp texture` writes it. */
+export function textureSample({ points = 6000, seed = 3 } = {}) {
+    const random = new Random(seed);
+    const x_mm = Array.from({ length: points }, (_, i) => i * 0.001);
+    let noise = 0;
+    const waviness_um = x_mm.map((x) => 0.25 * Math.sin(2.2 * x + 1));
+    const roughness_um = x_mm.map((x) => {
+        noise = 0.9 * noise + 0.04 * random.normal();
+        return 0.4 * Math.sin(2 * Math.PI * x / 0.0444 + 0.5 * Math.sin(9 * x)) + noise;
+    });
+    const inside = (_, i) => i >= 400 && i < points - 400;
+    const parameters = (letter) => fig12.map(([name, value, unit, condition]) => ({
+        name: letter + name, value: letter === "W" && name === "zJIS" ? null : value, unit, ...(condition ? { condition } : {}), source: "ISO 4287:1997",
+    }));
+    return {
+        schema: 1, command: "texture", version: "0.1.0",
+        profiles: [{
+            profile_file: "Scan5535.csv", points, spacing_mm: 0.001, length_mm: 5.999, tip_radius_mm: 0.005, cutoff_mm: 0.8,
+            form: "Form: levelled by a least-squares line.", notes: ["Gaussian filter (ISO 16610-21), cut-off 0.8 mm."],
+            parameters: { P: parameters("P"), R: parameters("R"), W: parameters("W") },
+            curves: {
+                primary: { x_mm, height_um: x_mm.map((_, i) => waviness_um[i] + roughness_um[i]), waviness_um: waviness_um.map((w, i) => (inside(w, i) ? w : null)) },
+                roughness: { x_mm: x_mm.filter(inside), height_um: roughness_um.filter(inside) },
+            },
+        }],
+    };
+}

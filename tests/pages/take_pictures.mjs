@@ -6,9 +6,9 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 
 import { Browser } from "./browser.mjs";
-import { inspectionSample } from "./samples.mjs";
+import { inspectionSample, textureSample } from "./samples.mjs";
 
-const samples = { inspection: inspectionSample };
+const samples = { inspection: inspectionSample, texture: textureSample };
 const [renderPage, where] = process.argv.slice(2);
 const folder = resolve(where);
 mkdirSync(folder, { recursive: true });

@@ -32,7 +32,7 @@ struct Stretch {
           conditions(conditions_),
           portions(portionsAt(curve, 0.0)),
           elements(significant(portions, conditions_.height_share * (curve.highest() - curve.lowest()),
-                               conditions_.spacing_share * curve.length())) {}
+                               conditions_.least_length_mm / spacing_mm_)) {}
 
     double lengthMm() const { return curve.length() * spacing_mm; }
     double q() const {

@@ -15,6 +15,7 @@ namespace cusp::inspect {
 namespace {
 
 constexpr double least_points_per_cutoff = 10.0;
+constexpr double least_length_share = 0.01;  // ISO 4287:1997, 3.2.7: 1 % of the sampling length
 constexpr double usual_sampling_lengths = 5.0;
 
 base::Result<void> checkOptions(const StylusProfile& profile, const TextureOptions& options) {
@@ -112,8 +113,9 @@ base::Result<TextureReport> evaluateTexture(StylusProfile profile, const Texture
         static_cast<std::size_t>(std::llround(options.end_cutoffs * options.cutoff_mm / profile.spacing_mm));
     const double begin_mm = static_cast<double>(left_out) * profile.spacing_mm;
     TextureConditions whole = options.conditions;
+    whole.least_length_mm = least_length_share * options.cutoff_mm;
     whole.sampling_length_mm = 0.0;
-    TextureConditions sampled = options.conditions;
+    TextureConditions sampled = whole;
     sampled.sampling_length_mm = options.cutoff_mm;
     report.primary = bandOf('P', std::move(heights), 0.0, profile.spacing_mm, whole);
     report.roughness = bandOf('R', inner(roughness, left_out), begin_mm, profile.spacing_mm, sampled);

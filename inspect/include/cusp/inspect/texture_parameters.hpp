@@ -21,7 +21,9 @@ struct TextureConditions {
     double peak_band_mm = 0.0005;  ///< Pc counts passages from above + to below − this
     double void_ratio = 0.2;       ///< material ratio of the lid of Vo
     double height_share = 0.1;     ///< of z: what a profile element must rise and fall at least
-    double spacing_share = 0.01;   ///< of the sampling length: how long its peak and valley must be at least
+    /// How long peak and valley of an element must be at least: 1 % of the sampling length of roughness (0.8 mm), in P and W
+    /// too, whose own sampling length, the whole profile, would leave no element of a long one.
+    double least_length_mm = 0.008;
 };
 
 struct TextureParameter {
@@ -62,7 +64,7 @@ struct TextureParameter {
 /// | Vo | void volume per area under a lid at a material ratio | as Vv(mr) of ISO 25178-2:2012 for a profile; see below |
 ///
 /// Profile elements: a peak and a valley between crossings of the mean line, each higher than `height_share` of z and longer
-/// than `spacing_share` of the length; what is smaller belongs to what is before it. Only whole elements count.
+/// than `least_length_mm`; what is smaller belongs to what is before it. Only whole elements count.
 /// Vo: fig. 12 gives 0.000395 mm³/mm² for q = 0.369 µm and ku = 2.39 and does not say under which lid; between a uniform and
 /// a normal distribution of heights 20 % material ratio gives 0.35–0.41 µm, and no other usual level comes near.
 /// fd: from 8 samples to 1/16 of the length; on self-affine profiles of 2^15 samples right to ± 0.05 up to dimension 1.5,

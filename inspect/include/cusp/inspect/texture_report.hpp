@@ -25,7 +25,7 @@ struct TextureOptions {
     double short_cutoff_mm =
         0.0;                   ///< λs: what is shorter is noise and left out of P; 0: none, as in Fountas 2017, fig. 12
     double end_cutoffs = 0.5;  ///< R and W leave out this many cut-offs at each end
-    TextureConditions conditions;
+    TextureConditions conditions;  ///< but `sampling_length_mm` and `least_length_mm`, which follow from the cut-off
 };
 
 /// Heights in mm over the mean line, at equal distances.
