@@ -10,6 +10,12 @@
 
 namespace cusp::geometry::detail {
 
+[[nodiscard]] inline double binomial(std::size_t n, std::size_t k) {
+    double out = 1.0;
+    for (std::size_t i = 1; i <= k; ++i) out = out * static_cast<double>(n - k + i) / static_cast<double>(i);
+    return out;
+}
+
 /// Bᵢⁿ(t) and derivatives for i = 0 … n, by the recurrence Bᵢⁿ = (1 − t) Bᵢⁿ⁻¹ + t Bᵢ₋₁ⁿ⁻¹; all terms are positive on
 /// [0, 1], so nothing cancels.
 struct BernsteinBasis {

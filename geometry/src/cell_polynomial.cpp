@@ -4,19 +4,23 @@
 #include "cell_polynomial.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <vector>
 
 namespace cusp::geometry::detail {
 namespace {
 
+using Vector4 = BezierPatch::Vector4;
+
 /// Taylor coefficients at x = 1/2 by h = 2x − 1 of Bernstein coefficients of degree n, `stride` apart, in place: derivatives
 /// at the middle are differences, averaged down by de Casteljau; fₖ = n!/(n − k)! Δᵏ / (k! 2ᵏ).
-void bernsteinToMiddle(Vector3* b, std::size_t n, std::size_t stride) {
-    std::array<Vector3, fast_degree + 1> taylor;
-    std::array<Vector3, fast_degree + 1> differences;
+void bernsteinToMiddle(Vector4* b, std::size_t n, std::size_t stride) {
+    std::array<Vector4, fast_degree + 1> taylor;
+    std::array<Vector4, fast_degree + 1> differences;
     for (std::size_t i = 0; i <= n; ++i) differences[i] = b[i * stride];
     double factor = 1.0;
     for (std::size_t k = 0; k <= n; ++k) {
-        std::array<Vector3, fast_degree + 1> level = differences;
+        std::array<Vector4, fast_degree + 1> level = differences;
         for (std::size_t r = n - k; r > 0; --r) {
             for (std::size_t i = 0; i < r; ++i) level[i] = 0.5 * (level[i] + level[i + 1]);
         }
@@ -29,20 +33,20 @@ void bernsteinToMiddle(Vector3* b, std::size_t n, std::size_t stride) {
 
 }  // namespace
 
-std::optional<CellPolynomial> CellPolynomial::of(const BezierPatch& part) {
-    if (part.isRational() || part.degreeU() > fast_degree || part.degreeV() > fast_degree) return std::nullopt;
+CellPolynomial::CellPolynomial(const BezierPatch& part)
+    : degree_(std::max(part.degreeU(), part.degreeV())), rational_(part.isRational()) {
+    assert(canHold(part));
     const auto rows = static_cast<std::size_t>(part.degreeU() + 1);
     const auto columns = static_cast<std::size_t>(part.degreeV() + 1);
-    std::vector<Vector3> net;
-    for (const BezierPatch::Vector4& point : part.net()) net.emplace_back(point.head<3>());
+    std::vector<Vector4> net = part.net();
     for (std::size_t i = 0; i < rows; ++i) bernsteinToMiddle(&net[i * columns], columns - 1, 1);
     for (std::size_t j = 0; j < columns; ++j) bernsteinToMiddle(&net[j], rows - 1, columns);
-    CellPolynomial out;
-    out.degree_ = std::max(part.degreeU(), part.degreeV());
     for (std::size_t i = 0; i < rows; ++i) {
-        for (std::size_t j = 0; j < columns; ++j) out.coefficients_[i][j] = toLanes(net[i * columns + j]);
+        for (std::size_t j = 0; j < columns; ++j) {
+            const Vector4& c = net[i * columns + j];
+            coefficients_[i][j] = {Lanes::Pair{c[0], c[1]}, Lanes::Pair{c[2], c[3]}};
+        }
     }
-    return out;
 }
 
 }  // namespace cusp::geometry::detail

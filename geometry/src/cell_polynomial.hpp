@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// A cell of a polynomial patch in the power basis about its centre: the fastest form to evaluate, and on a small cell an
-// accurate one, since the coefficients fall off quickly.
+// A cell of a patch in the power basis about its centre: the fastest form to evaluate, and on a small cell an accurate one,
+// since the coefficients fall off quickly.
 #pragma once
 
 #include <cusp/geometry/bezier_patch.hpp>
 
 #include <array>
 #include <cstddef>
-#include <optional>
 
 namespace cusp::geometry::detail {
 
@@ -19,7 +18,7 @@ inline constexpr int fast_degree = 3;
 struct Lanes {
     using Pair [[gnu::vector_size(2 * sizeof(double))]] = double;
     Pair xy{};
-    Pair z{};  ///< its second double is not used
+    Pair z{};  ///< its second double holds a weight, or nothing
 
     Lanes& operator+=(const Lanes& b) {
         xy += b.xy;
@@ -29,6 +28,7 @@ struct Lanes {
     friend Lanes operator+(Lanes a, const Lanes& b) { return a += b; }
     friend Lanes operator-(const Lanes& a, const Lanes& b) { return {a.xy - b.xy, a.z - b.z}; }
     friend Lanes operator*(const Lanes& a, double k) { return {a.xy * k, a.z * k}; }
+    [[nodiscard]] double weight() const { return z[1]; }
 };
 
 struct LanePoint {
@@ -40,23 +40,32 @@ struct LanePoint {
     Lanes dtt;
 };
 
-/// S(s, t) = Σ cᵢⱼ sⁱ tʲ, where the cell is |s|, |t| ≤ 1.
+/// (N, w)(s, t) = Σ cᵢⱼ sⁱ tʲ and S = N/w, where the cell is |s|, |t| ≤ 1.
 class CellPolynomial {
 public:
-    /// `part` is the cell as a patch of its own; nothing for a rational one or one of a higher degree.
-    [[nodiscard]] static std::optional<CellPolynomial> of(const BezierPatch& part);
+    /// Whether the degree of the patch is low enough.
+    [[nodiscard]] static bool canHold(const BezierPatch& patch) {
+        return patch.degreeU() <= fast_degree && patch.degreeV() <= fast_degree;
+    }
+    /// `part` is the cell as a patch of its own; it must be one that can be held.
+    explicit CellPolynomial(const BezierPatch& part);
+    CellPolynomial() = default;
 
-    [[nodiscard]] LanePoint evaluate(double s, double t) const;
-    /// cᵢⱼ; zero above the degree.
-    [[nodiscard]] const Lanes& coefficient(std::size_t i, std::size_t j) const { return coefficients_[i][j]; }
+    [[nodiscard]] LanePoint evaluate(double s, double t) const {
+        LanePoint p = degree_ <= 2 ? evaluateAs<2>(s, t) : evaluateAs<3>(s, t);
+        if (rational_) divide(p);
+        return p;
+    }
 
 private:
     static constexpr std::size_t size = fast_degree + 1;
     template <std::size_t degree>
     [[nodiscard]] LanePoint evaluateAs(double s, double t) const;
+    static void divide(LanePoint& p);
 
     std::array<std::array<Lanes, size>, size> coefficients_{};
     int degree_ = fast_degree;
+    bool rational_ = false;
 };
 
 [[nodiscard]] inline double dot(const Lanes& a, const Lanes& b) {
@@ -94,8 +103,17 @@ LanePoint CellPolynomial::evaluateAs(double s, double t) const {
     return p;
 }
 
-inline LanePoint CellPolynomial::evaluate(double s, double t) const {
-    return degree_ <= 2 ? evaluateAs<2>(s, t) : evaluateAs<3>(s, t);
+/// Quotient rule; Piegl & Tiller 1997, eq. 4.20.
+inline void CellPolynomial::divide(LanePoint& p) {
+    const double inverse = 1.0 / p.position.weight();
+    const double w_s = p.ds.weight();
+    const double w_t = p.dt.weight();
+    p.position = p.position * inverse;
+    p.ds = (p.ds - p.position * w_s) * inverse;
+    p.dt = (p.dt - p.position * w_t) * inverse;
+    p.dss = (p.dss - p.ds * (2.0 * w_s) - p.position * p.dss.weight()) * inverse;
+    p.dst = (p.dst - p.dt * w_s - p.ds * w_t - p.position * p.dst.weight()) * inverse;
+    p.dtt = (p.dtt - p.dt * (2.0 * w_t) - p.position * p.dtt.weight()) * inverse;
 }
 
 }  // namespace cusp::geometry::detail

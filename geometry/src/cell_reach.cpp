@@ -9,6 +9,8 @@
 // For y outside the window the quotient is at least |y − x|/2.
 #include "cell_reach.hpp"
 
+#include "bernstein.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,28 +20,62 @@
 namespace cusp::geometry::detail {
 namespace {
 
+using Vector4 = BezierPatch::Vector4;
+
 /// Whether the derivative across the border of two neighbours agrees all along it. Differences of this relative size
 /// can hide points no farther than 1e-12 of the query's distance from the foot.
 constexpr double smooth_enough = 1e-12;
 
-bool joinsSmoothly(const BezierPatch& a, double width_a, const BezierPatch& b, double width_b, bool along_u) {
-    if (a.isRational() || b.isRational()) {
-        return false;  // the weights would have to be looked at as well; not worth it
-    }
+/// The border two patches share, and the derivative across it on either side, as Bernstein coefficients (N, w).
+struct Border {
+    std::vector<Vector4> curve;
+    std::vector<Vector4> left;
+    std::vector<Vector4> right;
+};
+
+Border borderOf(const BezierPatch& a, double width_a, const BezierPatch& b, double width_b, bool along_u) {
+    Border border;
     const int count = along_u ? a.degreeV() : a.degreeU();
     const int degree = along_u ? a.degreeU() : a.degreeV();
+    for (int k = 0; k <= count; ++k) {
+        const auto point = [&](const BezierPatch& p, int i) { return along_u ? p.at(i, k) : p.at(k, i); };
+        border.curve.push_back(point(b, 0));
+        border.left.emplace_back(degree * (point(a, degree) - point(a, degree - 1)) / width_a);
+        border.right.emplace_back(degree * (point(b, 1) - point(b, 0)) / width_b);
+    }
+    // About the middle of the border, where rounding is least.
+    const Vector4 middle = border.curve[border.curve.size() / 2];
+    const Vector3 origin = middle.head<3>() / middle[3];
+    for (auto* const row : {&border.curve, &border.left, &border.right}) {
+        for (Vector4& p : *row) p.head<3>() -= p[3] * origin;
+    }
+    return border;
+}
+
+/// The jump of the derivative is (w ΔN′ − N Δw′)/w², and its numerator lies in the hull of its Bernstein coefficients, which
+/// are means of the products below.
+bool joinsSmoothly(const BezierPatch& a, double width_a, const BezierPatch& b, double width_b, bool along_u) {
+    const Border border = borderOf(a, width_a, b, width_b, along_u);
+    const std::size_t n = border.curve.size() - 1;
     double jump = 0.0;
     double size = 0.0;
-    for (int k = 0; k <= count; ++k) {
-        const auto point = [&](const BezierPatch& p, int i) -> Vector3 {
-            return (along_u ? p.at(i, k) : p.at(k, i)).head<3>();
-        };
-        const Vector3 left = (point(a, degree) - point(a, degree - 1)) / width_a;
-        const Vector3 right = (point(b, 1) - point(b, 0)) / width_b;
-        jump = std::max(jump, (right - left).norm());
-        size = std::max({size, left.norm(), right.norm()});
+    for (std::size_t k = 0; k <= 2 * n; ++k) {
+        Vector3 numerator = Vector3::Zero();
+        double total = 0.0;
+        for (std::size_t i = k > n ? k - n : 0; i <= std::min(k, n); ++i) {
+            const double share = binomial(n, i) * binomial(n, k - i);
+            const Vector4 step = border.right[k - i] - border.left[k - i];
+            numerator += share * (border.curve[i][3] * step.head<3>() - step[3] * border.curve[i].head<3>());
+            total += share;
+        }
+        jump = std::max(jump, numerator.norm() / total);
     }
-    return jump <= smooth_enough * size;
+    double least_weight = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k <= n; ++k) {
+        size = std::max({size, border.left[k].head<3>().norm(), border.right[k].head<3>().norm()});
+        least_weight = std::min(least_weight, border.curve[k][3]);
+    }
+    return jump <= smooth_enough * size * least_weight * least_weight;
 }
 
 std::vector<bool> smoothBreaks(const SurfaceFace& face, bool along_u) {
@@ -88,6 +124,7 @@ ReachFinder::ReachFinder(std::span<const SurfaceFace> faces, std::span<const Pat
                          std::span<const PatchCell> cells, const BoxTree& tree,
                          std::span<const Eigen::AlignedBox3d> boxes)
     : faces_(faces), places_(places), cells_(cells), tree_(tree), boxes_(boxes) {
+    for (std::size_t c = 0; c < cells.size(); ++c) face_boxes_.push_back(faceBoxOf(c));
     first_cell_.assign(places.size() + 1, cells.size());
     for (std::size_t c = cells.size(); c-- > 0;) first_cell_[cells[c].patch] = c;
     first_patch_.assign(faces.size(), places.size());
@@ -98,7 +135,7 @@ ReachFinder::ReachFinder(std::span<const SurfaceFace> faces, std::span<const Pat
     }
 }
 
-ParameterBox ReachFinder::faceBox(std::size_t cell) const {
+ParameterBox ReachFinder::faceBoxOf(std::size_t cell) const {
     const PatchPlace& place = places_[cells_[cell].patch];
     const SurfaceFace& face = faces_[place.face];
     const double u = face.breaksU()[place.row];
@@ -112,7 +149,7 @@ ParameterBox ReachFinder::faceBox(std::size_t cell) const {
 ReachFinder::Window ReachFinder::windowAround(std::size_t cell, double half_widths) const {
     const PatchPlace& place = places_[cells_[cell].patch];
     const SurfaceFace& face = faces_[place.face];
-    const ParameterBox box = faceBox(cell);
+    const ParameterBox& box = face_boxes_[cell];
     const double half_u = 0.5 * (box.high_u - box.low_u) * half_widths;
     const double half_v = 0.5 * (box.high_v - box.low_v) * half_widths;
     Window w{
@@ -133,7 +170,7 @@ std::vector<std::size_t> ReachFinder::cellsTouching(const Window& window) const 
         for (std::size_t column = window.first_column; column <= window.last_column; ++column) {
             const std::size_t patch = first_patch_[window.face] + row * columns + column;
             for (std::size_t c = first_cell_[patch]; c < first_cell_[patch + 1]; ++c) {
-                const ParameterBox box = faceBox(c);
+                const ParameterBox& box = face_boxes_[c];
                 if (box.low_u <= window.box.high_u && box.high_u >= window.box.low_u &&
                     box.low_v <= window.box.high_v && box.high_v >= window.box.low_v) {
                     out.push_back(c);
@@ -148,7 +185,7 @@ std::vector<std::size_t> ReachFinder::cellsInside(const Window& window, std::vec
     const double slack_u = 1e-12 * (window.box.high_u - window.box.low_u);
     const double slack_v = 1e-12 * (window.box.high_v - window.box.low_v);
     std::erase_if(touching, [&](std::size_t c) {
-        const ParameterBox box = faceBox(c);
+        const ParameterBox& box = face_boxes_[c];
         return box.low_u < window.box.low_u - slack_u || box.high_u > window.box.high_u + slack_u ||
                box.low_v < window.box.low_v - slack_v || box.high_v > window.box.high_v + slack_v;
     });
@@ -160,14 +197,14 @@ double ReachFinder::curvatureReach(std::size_t cell, const std::vector<std::size
     const double size_u = home.du.norm();
     const double size_v = home.dv.norm();
     if (!(size_u > 0.0 && size_v > 0.0)) return 0.0;
-    const ParameterBox home_box = faceBox(cell);
+    const ParameterBox& home_box = face_boxes_[cell];
     const double width_u = home_box.high_u - home_box.low_u;
     const double width_v = home_box.high_v - home_box.low_v;
     double deviation = 0.0;
     double kappa = 0.0;
     for (const std::size_t c : touching) {
         const PatchBounds& b = cells_[c].bounds;
-        const ParameterBox box = faceBox(c);
+        const ParameterBox& box = face_boxes_[c];
         // From widths of that cell to parameters scaled by the columns at home.
         const double scale_u = width_u / (box.high_u - box.low_u) / size_u;
         const double scale_v = width_v / (box.high_v - box.low_v) / size_v;
@@ -197,13 +234,13 @@ double ReachFinder::distanceToOthers(const Eigen::AlignedBox3d& box, const std::
 
 Eigen::AlignedBox3d ReachFinder::scopeBox(std::size_t cell, const std::vector<std::size_t>& touching) const {
     const PatchBounds& home = cells_[cell].bounds;
-    const ParameterBox home_box = faceBox(cell);
+    const ParameterBox& home_box = face_boxes_[cell];
     double duu = 0.0;
     double duv = 0.0;
     double dvv = 0.0;
     for (const std::size_t c : touching) {
         const PatchBounds& b = cells_[c].bounds;
-        const ParameterBox box = faceBox(c);
+        const ParameterBox& box = face_boxes_[c];
         const double ratio_u = (home_box.high_u - home_box.low_u) / (box.high_u - box.low_u);
         const double ratio_v = (home_box.high_v - home_box.low_v) / (box.high_v - box.low_v);
         duu = std::max(duu, ratio_u * ratio_u * b.duu.largest);

@@ -46,13 +46,14 @@ private:
     [[nodiscard]] Eigen::AlignedBox3d scopeBox(std::size_t cell, const std::vector<std::size_t>& touching) const;
     [[nodiscard]] double curvatureReach(std::size_t cell, const std::vector<std::size_t>& touching) const;
     [[nodiscard]] double distanceToOthers(const Eigen::AlignedBox3d& box, const std::vector<std::size_t>& inside) const;
-    [[nodiscard]] ParameterBox faceBox(std::size_t cell) const;
+    [[nodiscard]] ParameterBox faceBoxOf(std::size_t cell) const;
 
     std::span<const SurfaceFace> faces_;
     std::span<const PatchPlace> places_;
     std::span<const PatchCell> cells_;
     const BoxTree& tree_;
     std::span<const Eigen::AlignedBox3d> boxes_;
+    std::vector<ParameterBox> face_boxes_;     ///< of each cell, in the parameters of its face
     std::vector<std::size_t> first_cell_;      ///< of each patch, and the end
     std::vector<std::size_t> first_patch_;     ///< of each face
     std::vector<std::vector<bool>> smooth_u_;  ///< of each face: is the break between rows i and i + 1 smooth?

@@ -3,6 +3,8 @@
 // Products of Bernstein polynomials (Farin 2002, 6.8): scaled by their binomials, coefficients convolve.
 #include "distance_polynomial.hpp"
 
+#include "bernstein.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,10 +16,8 @@ namespace {
 constexpr double rounding = 2e-15;
 
 std::vector<double> binomials(int n) {
-    std::vector<double> row(static_cast<std::size_t>(n) + 1, 1.0);
-    for (std::size_t k = 1; k < row.size(); ++k) {
-        row[k] = row[k - 1] * static_cast<double>(row.size() - k) / static_cast<double>(k);
-    }
+    std::vector<double> row;
+    for (int k = 0; k <= n; ++k) row.push_back(binomial(static_cast<std::size_t>(n), static_cast<std::size_t>(k)));
     return row;
 }
 

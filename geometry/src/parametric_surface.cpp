@@ -104,7 +104,9 @@ private:
     void prepareQuickSearch(const std::vector<Eigen::AlignedBox3d>& boxes) {
         const detail::ReachFinder finder(faces_, places_, cells_, tree_, boxes);
         std::vector<double> reaches(cells_.size());
-        tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t c) { reaches[c] = finder.reachOf(c); });
+        tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t c) {
+            if (detail::CellPolynomial::canHold(patches_[cells_[c].patch])) reaches[c] = finder.reachOf(c);
+        });
         std::vector<const BezierPatch*> patches;
         for (const BezierPatch& patch : patches_) patches.push_back(&patch);
         quick_ = detail::QuickSearch(patches, cells_, reaches);

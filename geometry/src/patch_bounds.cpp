@@ -88,18 +88,22 @@ Product mixedTerm(const NetBounds& b, const Extent& weight_derivative, double le
 SecondDerivative secondDerivative(const NetBounds& b, const Extent& n, const Product& first, const Product& second,
                                   const Vector3& at_center) {
     const double last = n.weight * b.radius_mm * b.inverse_weight;
-    return {at_center, n.space * b.inverse_weight + first.largest + second.largest + last,
-            n.space_deviation * b.inverse_weight + n.center.head<3>().norm() * b.inverse_weight_deviation +
-                first.deviation + second.deviation + last};
+    const double deviation = n.space_deviation * b.inverse_weight +
+                             n.center.head<3>().norm() * b.inverse_weight_deviation + first.deviation +
+                             second.deviation + last;
+    // Terms that cancel at the centre still do so nearby; their sizes do not.
+    const double largest =
+        std::min(n.space * b.inverse_weight + first.largest + second.largest + last, at_center.norm() + deviation);
+    return {at_center, largest, deviation};
 }
 
 void boundDerivatives(const NetBounds& b, const SurfacePoint& center, PatchBounds& out) {
     out.length_u_mm = b.inverse_weight * (b.u.space + b.u.weight * b.radius_mm);
     out.length_v_mm = b.inverse_weight * (b.v.space + b.v.weight * b.radius_mm);
-    // First with the trivial deviation of du and dv, for their size only; then with the real one.
+    // First with the trivial deviation of du and dv; what follows for the second derivatives gives a better one.
     double deviation_u = 2.0 * out.length_u_mm;
     double deviation_v = 2.0 * out.length_v_mm;
-    for (int round = 0; round < 2; ++round) {
+    for (int round = 0; round < 3; ++round) {
         const Product u_u = mixedTerm(b, b.u, out.length_u_mm, deviation_u);
         const Product u_v = mixedTerm(b, b.u, out.length_v_mm, deviation_v);
         const Product v_u = mixedTerm(b, b.v, out.length_u_mm, deviation_u);
@@ -134,7 +138,11 @@ bool PatchBounds::isConvexFor(const Vector3& query) const {
     const double v = dv.norm();
     const double e_u = 0.5 * (duu.largest + duv.largest);
     const double e_v = 0.5 * (duv.largest + dvv.largest);
-    const auto bent = [&](const SecondDerivative& s) { return radius_mm * s.largest + distance * s.deviation; };
+    // Along its axes the piece is thin in one direction at least, and long pieces bend across their length.
+    const Vector3 extent = low.cwiseAbs().cwiseMax(high.cwiseAbs());
+    const auto bent = [&](const SecondDerivative& s) {
+        return (axes * s.center).cwiseAbs().dot(extent) + (radius_mm + distance) * s.deviation;
+    };
     const double least_uu = u * u + r.dot(duu.center) - (2.0 * u + e_u) * e_u - bent(duu);
     const double least_vv = v * v + r.dot(dvv.center) - (2.0 * v + e_v) * e_v - bent(dvv);
     const double most_uv = std::abs(du.dot(dv) + r.dot(duv.center)) + u * e_v + v * e_u + e_u * e_v + bent(duv);

@@ -8,8 +8,9 @@
 namespace cusp::geometry::detail {
 namespace {
 
-/// Newton's method then starts within a few percent of the answer.
+/// Newton's method then starts within a few percent of the answer. Bounds of rational patches are wider than the truth.
 constexpr double flat_enough = 0.1;
+constexpr double flat_enough_rational = 0.15;
 constexpr int most_halvings = 12;
 
 Eigen::AlignedBox3d hullOf(const BezierPatch& patch) {
@@ -21,14 +22,14 @@ Eigen::AlignedBox3d hullOf(const BezierPatch& patch) {
 void cut(const BezierPatch& part, const ParameterBox& box, std::uint32_t index, int halvings,
          std::vector<PatchCell>& cells) {
     const PatchBounds bounds = boundPatch(part);
-    if (halvings == most_halvings ||
-        (bounds.bend_u + bounds.bend_v <= flat_enough && bounds.isConvexFor(bounds.center))) {
+    const bool flat = bounds.bend_u + bounds.bend_v <= (part.isRational() ? flat_enough_rational : flat_enough);
+    if (halvings == most_halvings || (flat && bounds.isConvexFor(bounds.center))) {
         cells.push_back({index, box, bounds, hullOf(part)});
         return;
     }
-    // Neither is known at a pole; the longer side is halved there.
-    const bool along_u =
-        bounds.bend_u == bounds.bend_v ? bounds.length_u_mm >= bounds.length_v_mm : bounds.bend_u > bounds.bend_v;
+    // A flat piece that is not proved convex is too long; at a pole nothing is known but the lengths.
+    const bool by_length = flat || bounds.bend_u == bounds.bend_v;
+    const bool along_u = by_length ? bounds.length_u_mm >= bounds.length_v_mm : bounds.bend_u > bounds.bend_v;
     const auto [left, right] = along_u ? part.splitU() : part.splitV();
     ParameterBox first = box;
     ParameterBox second = box;

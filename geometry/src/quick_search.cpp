@@ -14,6 +14,7 @@ namespace {
 /// Outside of this the start is no good, and the general search is the faster one.
 constexpr double start_scope = 3.0;
 constexpr int most_steps = 5;
+constexpr int most_cells = 3;
 
 }  // namespace
 
@@ -22,10 +23,9 @@ QuickSearch::QuickSearch(std::span<const BezierPatch* const> patches, std::span<
     index_.assign(cells.size(), StartGrid::none);
     for (std::size_t c = 0; c < cells.size(); ++c) {
         if (!(reaches[c] > 0.0)) continue;
-        const auto shape = CellPolynomial::of(partOf(*patches[cells[c].patch], cells[c].box));
-        if (!shape) continue;
+        const CellPolynomial shape(partOf(*patches[cells[c].patch], cells[c].box));
         index_[c] = static_cast<std::uint32_t>(cells_.size());
-        cells_.push_back(cellOf(cells[c], *shape, reaches[c]));
+        cells_.push_back(cellOf(cells[c], shape, reaches[c]));
     }
     if (!cells_.empty()) grid_ = StartGrid(cells);
 }
@@ -33,8 +33,9 @@ QuickSearch::QuickSearch(std::span<const BezierPatch* const> patches, std::span<
 QuickSearch::Cell QuickSearch::cellOf(const PatchCell& cell, const CellPolynomial& shape, double reach_mm) {
     Cell out;
     out.shape = shape;
-    const Vector3 ds = toVector(shape.coefficient(1, 0));
-    const Vector3 dt = toVector(shape.coefficient(0, 1));
+    out.middle = shape.evaluate(0.0, 0.0);
+    const Vector3 ds = toVector(out.middle.ds);
+    const Vector3 dt = toVector(out.middle.dt);
     const double determinant = ds.squaredNorm() * dt.squaredNorm() - ds.dot(dt) * ds.dot(dt);
     out.to_s = toLanes((dt.squaredNorm() * ds - ds.dot(dt) * dt) / determinant);
     out.to_t = toLanes((ds.squaredNorm() * dt - ds.dot(dt) * ds) / determinant);
@@ -55,20 +56,31 @@ QuickSearch::Cell QuickSearch::cellOf(const PatchCell& cell, const CellPolynomia
 }
 
 bool QuickSearch::find(const Vector3& query, QuickFoot& foot) const {
-    const std::uint32_t start = grid_.cellNear(query);
-    if (start == StartGrid::none || index_[start] == StartGrid::none) return false;
-    const Cell& cell = cells_[index_[start]];
+    std::uint32_t start = grid_.cellNear(query);
+    for (int attempt = 0; attempt < most_cells; ++attempt) {
+        if (start == StartGrid::none || index_[start] == StartGrid::none) return false;
+        const Ending ending = findFrom(cells_[index_[start]], query, foot);
+        if (ending != Ending::Beside) return ending == Ending::Proved;
+        // The foot belongs to another cell, which is the one near the foot.
+        const std::uint32_t next = grid_.cellNear(foot.position);
+        if (next == start) return false;
+        start = next;
+    }
+    return false;
+}
+
+QuickSearch::Ending QuickSearch::findFrom(const Cell& cell, const Vector3& query, QuickFoot& foot) {
     const Lanes point = toLanes(query);
-    const Lanes offset = point - cell.shape.coefficient(0, 0);
+    const Lanes offset = point - cell.middle.position;
     double s = dot(cell.to_s, offset);
     double t = dot(cell.to_t, offset);
-    if (!(std::abs(s) <= start_scope && std::abs(t) <= start_scope)) return false;
-    const Lanes straight = offset - (cell.shape.coefficient(2, 0) * (s * s) + cell.shape.coefficient(1, 1) * (s * t) +
-                                     cell.shape.coefficient(0, 2) * (t * t));
+    if (!(std::abs(s) <= start_scope && std::abs(t) <= start_scope)) return Ending::Lost;
+    const Lanes straight =
+        offset - (cell.middle.dss * (0.5 * s * s) + cell.middle.dst * (s * t) + cell.middle.dtt * (0.5 * t * t));
     s = dot(cell.to_s, straight);
     t = dot(cell.to_t, straight);
     for (int i = 0; i < most_steps; ++i) {
-        if (!(std::abs(s) <= start_scope && std::abs(t) <= start_scope)) return false;
+        if (!(std::abs(s) <= start_scope && std::abs(t) <= start_scope)) return Ending::Lost;
         const LanePoint p = cell.shape.evaluate(s, t);
         const Lanes r = p.position - point;
         const double g_s = dot(r, p.ds);
@@ -84,19 +96,17 @@ bool QuickSearch::find(const Vector3& query, QuickFoot& foot) const {
         const Lanes step = p.ds * step_s + p.dt * step_t;
         if (!(dot(step, step) <= cell.last_step_mm2)) continue;
         const Lanes rest = r + step;
-        if (!(s >= cell.low_s && s <= cell.high_s && t >= cell.low_t && t <= cell.high_t &&
-              dot(rest, rest) < cell.squared_reach)) {
-            return false;
-        }
+        foot.position = toVector(p.position + step);
+        if (!(s >= cell.low_s && s <= cell.high_s && t >= cell.low_t && t <= cell.high_t)) return Ending::Beside;
+        if (!(dot(rest, rest) < cell.squared_reach)) return Ending::Lost;
         foot.patch = cell.patch;
         foot.u = cell.middle_u + s * cell.half_u;
         foot.v = cell.middle_v + t * cell.half_v;
-        foot.position = toVector(p.position + step);
         foot.ds = toVector(p.ds + p.dss * step_s + p.dst * step_t);
         foot.dt = toVector(p.dt + p.dst * step_s + p.dtt * step_t);
-        return true;
+        return Ending::Proved;
     }
-    return false;
+    return Ending::Lost;
 }
 
 }  // namespace cusp::geometry::detail

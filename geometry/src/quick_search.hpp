@@ -36,6 +36,7 @@ public:
 private:
     struct Cell {
         CellPolynomial shape;
+        LanePoint middle;
         /// Rows of the pseudo-inverse of J at the middle: from an offset to (s, t).
         Lanes to_s{};
         Lanes to_t{};
@@ -53,6 +54,9 @@ private:
         double half_v = 0.0;
         std::uint32_t patch = 0;
     };
+    /// Beside: the foot is not within the scope of the cell; its position says where it is.
+    enum class Ending : std::uint8_t { Proved, Beside, Lost };
+    [[nodiscard]] static Ending findFrom(const Cell& cell, const Vector3& query, QuickFoot& foot);
     [[nodiscard]] static Cell cellOf(const PatchCell& cell, const CellPolynomial& shape, double reach_mm);
 
     StartGrid grid_;

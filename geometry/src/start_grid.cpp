@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// Cubes about as large as the cells, entered by each cell whose box comes near them.
+// Cubes about half as large as the cells, entered by each cell whose box comes near them.
 #include "start_grid.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_cubes = std::size_t{1} << 20U;
 /// A cell is entered this many cubes around its box, for queries off the surface.
-constexpr double around = 0.75;
+constexpr double around = 1.0;
 
 /// Mean of the shorter sides of the cells.
 double meanSide(std::span<const PatchCell> cells) {
@@ -25,7 +25,7 @@ double meanSide(std::span<const PatchCell> cells) {
 StartGrid::StartGrid(std::span<const PatchCell> cells) {
     Eigen::AlignedBox3d box;
     for (const PatchCell& cell : cells) box.extend(cell.hull);
-    double edge_mm = std::max(meanSide(cells), 1e-6 * box.diagonal().norm());
+    double edge_mm = std::max(0.5 * meanSide(cells), 1e-6 * box.diagonal().norm());
     if (!(edge_mm > 0.0)) return;
     const auto count = [&](double size) { return std::floor((size + 2.0 * around * edge_mm) / edge_mm) + 1.0; };
     const auto cubes = [&] { return count(box.sizes().x()) * count(box.sizes().y()) * count(box.sizes().z()); };

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // Power basis to Bernstein basis, B-spline to Bézier by blossoming; what must hold of a form is checked first.
+#include "bernstein.hpp"
+
 #include <cusp/geometry/surface_forms.hpp>
 
 #include <fmt/format.h>
@@ -114,12 +116,6 @@ base::Result<SurfaceFace> withArea(SurfaceFace face, const char* key) {
     return failAt(key, "surface.degenerate", "the surface is a line or a point: it has no area");
 }
 
-double binomial(std::size_t n, std::size_t k) {
-    double out = 1.0;
-    for (std::size_t i = 1; i <= k; ++i) out = out * static_cast<double>(n - k + i) / static_cast<double>(i);
-    return out;
-}
-
 /// Power coefficients over `range` to Bernstein coefficients over [0, 1] (Farin 2002, 5.8), in place.
 void powerToBernstein(std::vector<Vector4>& c, const std::array<double, 2>& range) {
     const std::size_t n = c.size() - 1;
@@ -131,7 +127,7 @@ void powerToBernstein(std::vector<Vector4>& c, const std::array<double, 2>& rang
     for (std::size_t i = 0; i <= n; ++i, scale *= range[1] - range[0]) c[i] *= scale;
     std::vector<Vector4> b(n + 1, Vector4::Zero());
     for (std::size_t i = 0; i <= n; ++i) {
-        for (std::size_t k = 0; k <= i; ++k) b[i] += binomial(i, k) / binomial(n, k) * c[k];
+        for (std::size_t k = 0; k <= i; ++k) b[i] += detail::binomial(i, k) / detail::binomial(n, k) * c[k];
     }
     c = std::move(b);
 }
