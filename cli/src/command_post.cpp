@@ -49,6 +49,10 @@ struct Flags {
     std::vector<double> wcs_origin_mm;
     std::optional<double> orientation_tolerance_deg;
     std::optional<double> pole_cone_deg;
+    std::string at_limit;
+    std::optional<double> retract_mm;
+    std::optional<double> retract_feed_mm_per_min;
+    std::optional<double> engage_feed_mm_per_min;
     std::optional<double> chord_tolerance_mm;
     bool strict = false;
     bool json = false;
@@ -77,6 +81,14 @@ base::Result<post::PostOptions> optionsOf(const Flags& flags) {
     if (flags.orientation_tolerance_deg)
         job.post.orientation_tolerance_rad = base::radFromDeg(*flags.orientation_tolerance_deg);
     if (flags.pole_cone_deg) job.post.pole_cone_rad = base::radFromDeg(*flags.pole_cone_deg);
+    if (!flags.at_limit.empty())
+        job.post.at_limit =
+            flags.at_limit == "refuse" ? post::PostOptions::AtLimit::Refuse : post::PostOptions::AtLimit::Retract;
+    if (flags.retract_mm) job.post.retract_mm = *flags.retract_mm;
+    if (flags.retract_feed_mm_per_min)
+        job.post.retract_feed_mm_per_s = base::mmPerSFromMmPerMin(*flags.retract_feed_mm_per_min);
+    if (flags.engage_feed_mm_per_min)
+        job.post.engage_feed_mm_per_s = base::mmPerSFromMmPerMin(*flags.engage_feed_mm_per_min);
     if (flags.chord_tolerance_mm) job.post.chord_tolerance_mm = *flags.chord_tolerance_mm;
     if (flags.strict) job.post.strict = true;
     base::Diagnostics report;
@@ -252,9 +264,21 @@ void addPostCommand(CLI::App& app, Action& action) {
         "--orientation-tolerance-deg", flags->orientation_tolerance_deg,
         "While cutting, how far the tool axis may leave its way between two CL points (0.05); near the pole "
         "blocks are inserted.");
-    post->add_option("--pole-cone-deg", flags->pole_cone_deg,
-                     "Where rotary limits force a change of branch in a cut: at most this close to the pole, with a "
-                     "warning (3); 0 refuses.");
+    post->add_option(
+        "--pole-cone-deg", flags->pole_cone_deg,
+        "Where rotary limits force a change of branch in a cut, it may be made this close to the pole, the "
+        "tool axis swinging off its way by up to as much (0: never).");
+    post->add_option(
+            "--at-limit", flags->at_limit,
+            "Where rotary limits would force a cut off its way: the tool retracts, the axes unwind and it comes "
+            "back (retract), or there is no program (refuse).")
+        ->check(CLI::IsMember({"retract", "refuse"}));
+    post->add_option("--retract-mm", flags->retract_mm, "How far the tool then leaves the part along its axis (50).");
+    post->add_option("--retract-feed-mm-per-min", flags->retract_feed_mm_per_min, "Feed off the part (5000).")
+        ->check(CLI::PositiveNumber);
+    post->add_option("--engage-feed-mm-per-min", flags->engage_feed_mm_per_min,
+                     "Feed back to the part (the feed of the cut).")
+        ->check(CLI::PositiveNumber);
     post->add_option(
         "--tolerance,--chord-tolerance-mm", flags->chord_tolerance_mm,
         "How far the tip may be from its way between block ends, in mm (0.005): on straight moves that stand "

@@ -41,6 +41,8 @@ std::string rotaryText(const PostOutcome& outcome) {
     if (summary.largest_chord_error_mm > 0.0)
         out += fmt::format("  between block ends the tip is within {:.4f} mm of its way (proven bound)\n",
                            summary.largest_chord_error_mm);
+    if (summary.excursions > 0)
+        out += "  " + plural(summary.excursions, "time") + " off the part to unwind rotary axes\n";
     if (summary.largest_axis_deviation_rad > 0.0)
         out +=
             fmt::format("  while cutting, the tool axis leaves its way by at most {:.3f}°, at CL line {}\n",
@@ -111,6 +113,7 @@ base::Json toJson(const PostOutcome& outcome) {
     out["tool_changes"] = summary.tool_changes;
     out["blocks"] = outcome.blocks;
     out["inserted_blocks"] = summary.inserted_blocks;
+    out["excursions"] = summary.excursions;
     out["max_tip_between_bound_mm"] = summary.largest_chord_error_mm;
     out["max_axis_between_deg"] = base::degFromRad(summary.largest_axis_deviation_rad);
     out["warnings"] = outcome.report.warningCount();

@@ -20,6 +20,8 @@ protected:
                                          "--spindle-rpm", "5000", "--json"};
         std::vector<std::string> verifying{"verify", path("P.MPF"), "-m", machine, "--against", cl, "--json"};
         if (!form.empty()) posting.insert(posting.end(), {"--form", form});
+        // With vectors the control chooses the positions of the rotary axes, and nothing can be unwound.
+        if (form == "traori-vectors") posting.insert(posting.end(), {"--pole-cone-deg", "3"});
         if (!form.empty()) verifying.insert(verifying.end(), {"--between-tip-tolerance-mm", "0.005"});
         for (auto* arguments : {&posting, &verifying})
             arguments->insert(arguments->end(), shared_flags.begin(), shared_flags.end());
@@ -58,15 +60,36 @@ TEST_F(RealFiles, EveryFormFollowsTheFile) {
             EXPECT_LE(json["max_tip_error_mm"].get<double>(), 0.001);
             EXPECT_LE(json["max_axis_error_deg"].get<double>(), 0.001);
             EXPECT_LE(json["max_tip_between_mm"].get<double>(), 0.005);
+            EXPECT_EQ(json["excursions"], post["excursions"]) << machine << ", " << form;
         }
 }
 
-TEST_F(RealFiles, TheToolAxisStaysOnItsWayWhereTheRotaryAxesAreFree) {
-    for (const std::string machine : {"haas-umc-bc", "trunnion-ac", "nutating-45"}) {
+TEST_F(RealFiles, TheToolAxisStaysOnItsWay) {
+    for (const std::string machine :
+         {"haas-umc-bc", "trunnion-ac", "nutating-45", "fooke-endura-ca", "head-c200-a95"}) {
         const auto json = postAndVerify("nx_variable_axis.cls", machine);
         EXPECT_LE(json["max_axis_between_deg"].get<double>(), 0.05) << machine;
         EXPECT_GT(json["intermediate"], 0) << machine;
+        // Only on the heads does C have ends; there the tool leaves the part to unwind it.
+        const bool head = machine == "fooke-endura-ca" || machine == "head-c200-a95";
+        EXPECT_EQ(json["excursions"] != 0, head) << machine;
+        EXPECT_EQ(json["excursions"], post["excursions"]) << machine;
     }
+}
+
+TEST_F(RealFiles, LimitsMayBeRefusedOrMetInThePoleCone) {
+    const std::string cl = std::string(CUSP_SHARED_DATA) + "/cl/nx_variable_axis.cls";
+    std::vector<std::string> posting{"post",          cl,     "-m",         "fooke-endura-ca", "-o", path("P.MPF"),
+                                     "--spindle-rpm", "5000", "--at-limit", "refuse"};
+    const auto refused = run(posting);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_NE(refused.errors.find("error: the limits force a rewind while cutting, at CL line 193: "),
+              std::string::npos)
+        << refused.errors;
+    posting.insert(posting.end(), {"--pole-cone-deg", "3"});
+    const auto swung = run(posting);
+    EXPECT_EQ(swung.exit_code, 0) << swung.errors;
+    EXPECT_NE(swung.errors.find("[post.pole-cone]"), std::string::npos) << swung.errors;
 }
 
 TEST_F(RealFiles, ArcsFollowTheirClFiles) {

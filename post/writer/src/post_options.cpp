@@ -53,6 +53,8 @@ void check(const PostOptions& options, const Where& where, base::Diagnostics& re
     const double cone_deg = base::degFromRad(options.pole_cone_rad);
     if (!(cone_deg >= 0.0 && cone_deg <= 10.0 + rounding))
         report.error("post.pole-cone", "the pole cone must lie in 0° to 10°", where("pole_cone_deg"));
+    if (!(options.retract_mm >= 1.0 && options.retract_mm <= 1000.0))
+        report.error("post.retract", "the way off the part must lie in 1 to 1000 mm", where("retract_mm"));
     if (!(options.chord_tolerance_mm >= 0.0001 && options.chord_tolerance_mm <= 1.0))
         report.error("post.chord-tolerance", "the chord tolerance must lie in 0.0001 to 1 mm",
                      where("chord_tolerance_mm"));
@@ -89,9 +91,20 @@ const base::Section<PostOptions>& postSection() {
                    {.min = 0.001, .max = 10.0})
             .field(
                 "pole_cone_deg", &PostOptions::pole_cone_rad,
-                "Where rotary limits force a change of branch in a cut, it is made this close to the pole at most, and "
-                "told; the tool axis leaves its way by up to as much. 0: such a path is refused.",
+                "Where rotary limits force a change of branch in a cut, it may be made this close to the pole, and is told; "
+                "the tool axis leaves its way by up to as much. 0: the tool axis never leaves its way.",
                 {.min = 0.0, .max = 10.0})
+            .choice(
+                "at_limit", &PostOptions::at_limit,
+                {{"retract", PostOptions::AtLimit::Retract}, {"refuse", PostOptions::AtLimit::Refuse}},
+                "Where rotary limits would force a cut off its way: the tool leaves the part along its axis, the rotary "
+                "axes unwind, and it comes back to the same place, which is told; or there is no program.")
+            .field("retract_mm", &PostOptions::retract_mm, "How far the tool then leaves the part.",
+                   {.min = 1.0, .max = 1000.0})
+            .field("retract_feed_mm_per_min", &PostOptions::retract_feed_mm_per_s, "Feed on the way off the part.",
+                   base::positive())
+            .field("engage_feed_mm_per_min", &PostOptions::engage_feed_mm_per_s,
+                   "Feed on the way back to it; without it, the feed of the cut.", base::positive())
             .field(
                 "chord_tolerance_mm", &PostOptions::chord_tolerance_mm,
                 "How far the tip may be from its way between block ends: on the chords of arcs the control cannot drive "

@@ -27,12 +27,18 @@ using toolpath::SpindleCommand;
 
 namespace {
 
+/// Vectors leave the rotary positions to the control: nothing can be unwound with them.
+bool unwinds(const PostOptions& options, ProgramForm form) {
+    return options.at_limit == PostOptions::AtLimit::Retract && form != ProgramForm::TraoriVectors;
+}
+
 /// The start is left free: the rotary axes are positioned at home height, where travel costs nothing at the part.
-kinematics::PlannerOptions axisOptions(const std::string& cl_file, const PostOptions& chosen) {
+kinematics::PlannerOptions axisOptions(const std::string& cl_file, const PostOptions& chosen, ProgramForm form) {
     kinematics::PlannerOptions options;
     options.file_name = cl_file;
     options.orientation_tolerance_rad = chosen.orientation_tolerance_rad;
     options.pole_cone_rad = chosen.pole_cone_rad;
+    options.rewinds_are_handled = unwinds(chosen, form);
     return options;
 }
 
@@ -61,7 +67,7 @@ struct ProgramPlanner::State {
           sink(steps),
           report(diagnostics),
           model(machine_model),
-          axes(model, axisOptions(cl_file, options)),
+          axes(model, axisOptions(cl_file, options, options.form.value_or(machine.control.form))),
           way(machine_file, model, options, cl_file, sink, report),
           rotary_count(model.rotaryCount()),
           work_offset(options.work_offset.empty() ? machine.control.work_offset : options.work_offset) {
@@ -98,6 +104,7 @@ struct ProgramPlanner::State {
     std::optional<toolpath::ProgrammingFrame> frame;
     std::optional<ChangeTool> tool;
     bool cutting = false;  ///< tip programming is on and the tool is at the part
+    bool at_home = true;   ///< of the records taken: the next location is reached from home, not cut to
     bool warned_no_tool = false;
     bool warned_spindle_off = false;
 
@@ -207,6 +214,7 @@ struct ProgramPlanner::State {
         const toolpath::FeedRate rate = feed.value_or(toolpath::FeedRate{});
         const ToolPose to = poseAt(motion.location);
         if (!cutting) return reachPart(to, motion.kind, rate);
+        if (planned.rewind && unwinds(options, way.form())) return way.unwindTo(to, rate);
         way.moveTo(to, motion.kind, rate, !planned.rewind && !planned.in_pole_cone);
     }
 
@@ -301,7 +309,7 @@ struct ProgramPlanner::State {
         report.warning(
             "post.pole-cone",
             fmt::format("the rotary limits force a change of branch in a cut: {} turns {:.1f}° and the tool axis "
-                        "swings {:.2f}° off its way, the tip stays on the path; --pole-cone-deg 0 refuses it",
+                        "swings {:.2f}° off its way, the tip stays on the path; without --pole-cone-deg it does not",
                         model.rotaryNames()[0], base::degFromRad(std::abs(planned.rotary_rad[0] - from[0])),
                         base::degFromRad(swing)),
             here());
@@ -337,8 +345,13 @@ ProgramPlanner::ProgramPlanner(const MachineFile& file, const kinematics::Machin
 ProgramPlanner::~ProgramPlanner() = default;
 
 void ProgramPlanner::take(const ClRecord& record) {
-    if (const auto* location = locationOf(record.statement))
-        state_->axes.push({location->axis, record.line, isCut(record.statement)});
+    if (std::holds_alternative<toolpath::ToolCall>(record.statement) ||
+        std::holds_alternative<toolpath::HomeReturn>(record.statement))
+        state_->at_home = true;
+    if (const auto* location = locationOf(record.statement)) {
+        const bool from_home = std::exchange(state_->at_home, false);
+        state_->axes.push({location->axis, record.line, isCut(record.statement) && !from_home});
+    }
     state_->waiting.push_back(record);
     state_->drain();
 }
@@ -353,12 +366,15 @@ PostSummary ProgramPlanner::finish() {
     state.emit(End{});
     state.report.append(state.axes.report());
     state.report.append(state.way.refiner().report());
+    state.report.append(state.way.excursions().report());
+    state.summary.excursions = state.way.excursions().planned();
     const kinematics::RefinerSummary& refined = state.way.refiner().summary();
     state.summary.inserted_blocks = refined.inserted + state.way.linearised();
     state.summary.largest_chord_error_mm = state.way.largestChordError();
     state.countDeviation(refined.max_deviation_rad, refined.max_deviation_line);
     state.summary.limit_violations += state.axes.summary().limit_violations + state.axes.summary().unreached +
-                                      state.axes.summary().rewinds + state.way.refiner().report().errorCount();
+                                      state.axes.summary().rewinds - state.summary.excursions +
+                                      state.way.refiner().report().errorCount();
     return state.summary;
 }
 

@@ -48,6 +48,7 @@ ToolMotion::ToolMotion(const MachineFile& file, const kinematics::Machine& machi
       machine_(machine),
       form_(formOf(file, machine, options)),
       refiner_(machine, refinerOptions(cl_file, options)),
+      excursions_(machine, {.retract_mm = options.retract_mm, .file_name = cl_file}),
       machine_axes_(machine, file.control.format),
       lineariser_(machine, machine_axes_,
                   {.tolerance_mm = options.chord_tolerance_mm,
@@ -135,6 +136,25 @@ void ToolMotion::moveTo(const ToolPose& to, MotionKind kind, const FeedRate& fee
         else
             emitMove({{next.tip_mm, next.rotary_rad}, next.tip_mm, to.axis});
     }
+}
+
+void ToolMotion::unwindTo(const ToolPose& to, const FeedRate& feed) {
+    const auto excursion = excursions_.plan({.tip_mm = at_.tip_mm, .rotary_rad = at_.rotary_rad, .line = to.line},
+                                            {.tip_mm = to.tip_mm, .rotary_rad = to.rotary_rad, .line = to.line});
+    if (!excursion) return moveTo(to, MotionKind::Feed, feed, false);
+    const auto pose = [&](const Vector3& tip_mm, const RotaryValues& rotary_rad) {
+        return ToolPose{tip_mm, machine_.toolAxis(rotary_rad), rotary_rad, to.line};
+    };
+    const auto mmPerS = [](double value) { return FeedRate{.value = value, .unit = FeedRate::Unit::MmPerS}; };
+    const FeedRate back = options_.engage_feed_mm_per_s ? mmPerS(*options_.engage_feed_mm_per_s) : feed;
+    if (excursion->fraction > 0.0) moveTo(pose(excursion->tip_mm, excursion->leave_rad), MotionKind::Feed, feed, true);
+    sink_.step({Comment{"off the part: the rotary axes unwind"}, to.line});
+    moveTo(pose(excursion->retracted_mm, excursion->leave_rad), MotionKind::Feed,
+           mmPerS(options_.retract_feed_mm_per_s), true);
+    moveTo(pose(excursion->retracted_mm, excursion->return_rad), MotionKind::Rapid, {}, true);
+    moveTo(pose(excursion->tip_mm, excursion->return_rad), MotionKind::Feed, back, true);
+    sink_.step({Comment{"back on the path"}, to.line});
+    if (excursion->fraction < 1.0) moveTo(to, MotionKind::Feed, feed, true);
 }
 
 void ToolMotion::machineMove(const kinematics::PathPoint& to, bool refined) {

@@ -7,6 +7,7 @@
 #include "machine_axes.hpp"
 #include "tip_lineariser.hpp"
 
+#include <cusp/kinematics/excursion.hpp>
 #include <cusp/kinematics/path_refiner.hpp>
 #include <cusp/post/writer/nc_program.hpp>
 #include <cusp/post/writer/post_options.hpp>
@@ -41,6 +42,8 @@ public:
     void approach(const ToolPose& to, toolpath::MotionKind kind, const toolpath::FeedRate& feed);
     /// `mendable`: the rotary axes can follow the great circle to here.
     void moveTo(const ToolPose& to, toolpath::MotionKind kind, const toolpath::FeedRate& feed, bool mendable);
+    /// A cut that limits force off its way: the tool leaves the part, unwinds, and comes back (`kinematics::Excursion`).
+    void unwindTo(const ToolPose& to, const toolpath::FeedRate& feed);
     /// `to` is the end of the arc.
     void arcTo(const toolpath::ArcMotion& arc, const ToolPose& to, const toolpath::FeedRate& feed);
     /// The tool got there by a way of its own (a cycle).
@@ -51,6 +54,7 @@ public:
     [[nodiscard]] std::optional<Eigen::Affine3d> programmedFrame(const ToolPose& at);
 
     [[nodiscard]] const kinematics::PathRefiner& refiner() const { return refiner_; }
+    [[nodiscard]] const kinematics::ExcursionPlanner& excursions() const { return excursions_; }
     /// Blocks put in so that the tip keeps its line without TRAORI, and the largest error bound met.
     [[nodiscard]] std::size_t linearised() const { return lineariser_.inserted(); }
     [[nodiscard]] double largestChordError() const { return largest_chord_error_mm_; }
@@ -69,6 +73,7 @@ private:
     const kinematics::Machine& machine_;
     ProgramForm form_;
     kinematics::PathRefiner refiner_;
+    kinematics::ExcursionPlanner excursions_;
     MachineAxes machine_axes_;
     TipLineariser lineariser_;
     ToolPose at_;

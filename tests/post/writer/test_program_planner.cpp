@@ -5,6 +5,8 @@
 #include <cusp/post/writer/program_planner.hpp>
 #include <cusp/toolpath/cl_reader.hpp>
 
+#include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sstream>
 
@@ -242,6 +244,70 @@ TEST(ProgramName, MadeFromTheFile) {
     EXPECT_EQ(programNameFromFile("/tmp/nx part-7.cls"), "NX_PART_7");
     EXPECT_EQ(programNameFromFile("a_name_that_is_much_too_long_for_a_control.mpf"), "A_NAME_THAT_IS_MUCH_TOO_");
     EXPECT_EQ(programNameFromFile("-"), "PROGRAM");
+}
+
+/// Cuts with the head at 30° that turn C from `first_deg` on by 40° a point.
+std::string turningCuts(double first_deg, int points) {
+    std::string text = "FEDRAT/MMPM,1200.0\n";
+    for (int i = 0; i < points; ++i) {
+        const double c = base::radFromDeg(first_deg + 40.0 * i);
+        text += fmt::format("GOTO/{:.4f},0.0,0.0,{:.7f},{:.7f},0.8660254\n", 10.0 * i, 0.5 * std::sin(c),
+                            -0.5 * std::cos(c));
+    }
+    return text;
+}
+/// Turns C further than the ±200° of the head.
+std::string spiral() {
+    return "SPINDL/RPM,8000,CLW\nRAPID\nGOTO/0.0,0.0,50.0,0.0,-0.5,0.8660254\n" + turningCuts(0.0, 13);
+}
+
+TEST_F(Planner, WhereLimitsForceItTheToolLeavesThePartAndUnwinds) {
+    PostOptions options;
+    options.engage_feed_mm_per_s = 5.0;
+    // Wide enough that no block has to be put in.
+    options.orientation_tolerance_rad = base::radFromDeg(10.0);
+    file.machine.rotary.at("A").min_rad = base::radFromDeg(5.0);
+    file.machine.rotary.at("A").home_rad = base::radFromDeg(5.0);
+    const std::string text = plan(head + spiral(), options);
+    EXPECT_FALSE(report.hasErrors()) << base::toText(report);
+    EXPECT_EQ(summary.excursions, 1U);
+    EXPECT_EQ(summary.limit_violations, 0U);
+    const auto begin = text.find("comment off the part");
+    ASSERT_NE(begin, std::string::npos) << text;
+    const auto end = text.find("move", text.find("comment back on the path"));
+    // C goes from 0° to 160°, where −200° is the same; 50 mm along the axis (sin 160° / 2, −cos 160° / 2, cos 30°).
+    EXPECT_EQ(text.substr(begin, end - begin),
+              "comment off the part: the rotary axes unwind\n"
+              "move feed X48.5505 Y23.4923 Z43.3013 C160.0000 A30.0000 5000.000 mm/min\n"
+              "move rapid X48.5505 Y23.4923 Z43.3013 C-200.0000 A30.0000\n"
+              "move feed X40.0000 Y0.0000 Z0.0000 C-200.0000 A30.0000 300.000 mm/min\n"
+              "comment back on the path\n");
+}
+
+TEST_F(Planner, ARewindIsRefusedWhenAsked) {
+    PostOptions options;
+    options.at_limit = PostOptions::AtLimit::Refuse;
+    file.machine.rotary.at("A").min_rad = base::radFromDeg(5.0);
+    file.machine.rotary.at("A").home_rad = base::radFromDeg(5.0);
+    plan(head + spiral(), options);
+    EXPECT_EQ(summary.excursions, 0U);
+    EXPECT_EQ(summary.limit_violations, 1U);
+    ASSERT_TRUE(report.hasErrors());
+    EXPECT_EQ(report.front().code, "kinematics.rewind") << base::toText(report);
+}
+
+TEST_F(Planner, AFirstCutFromHomeIsNoRewind) {
+    // Together the operations turn C through 480°, each through 160°; between them the axes turn at home height.
+    file.machine.rotary.at("A").min_rad = base::radFromDeg(5.0);
+    file.machine.rotary.at("A").home_rad = base::radFromDeg(5.0);
+    PostOptions options;
+    options.at_limit = PostOptions::AtLimit::Refuse;
+    std::string text = head;
+    for (int i = 0; i < 3; ++i)
+        text += fmt::format("TOOL PATH/OP{0},TOOL,BALL_{0}\nTLDATA/MILL,8.0,4.0,50.0,0.0,0.0\n", i) +
+                "SPINDL/RPM,8000,CLW\n" + turningCuts(160.0 * i, 5) + "END-OF-PATH\n";
+    plan(text, options);
+    EXPECT_FALSE(report.hasErrors()) << base::toText(report);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cusp/post/control/control_definition.hpp>
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -36,9 +37,19 @@ struct PostOptions {
     std::map<std::string, std::array<double, 3>> offset_origins_mm;
     /// How far the tool axis may leave the great circle between two points of the CL file while cutting.
     double orientation_tolerance_rad = base::radFromDeg(0.05);
-    /// Where rotary limits force a change of branch in a cut, it is made this close to the pole at most, and told; the tool
-    /// axis leaves its way by up to as much. 0: such a path is refused.
-    double pole_cone_rad = base::radFromDeg(3.0);
+    /// Where rotary limits force a change of branch in a cut, it may be made this close to the pole, and is told; the tool
+    /// axis leaves its way by up to as much. 0: the tool axis never leaves its way.
+    double pole_cone_rad = 0.0;
+    /// What a cut does where rotary limits would force it off its way.
+    enum class AtLimit : std::uint8_t {
+        Retract,  ///< the tool leaves the part along its axis, the rotary axes unwind, and it comes back; told
+        Refuse    ///< no program
+    };
+    AtLimit at_limit = AtLimit::Retract;
+    double retract_mm = 50.0;
+    double retract_feed_mm_per_s = base::mmPerSFromMmPerMin(5000.0);
+    /// Absent: the feed of the cut.
+    std::optional<double> engage_feed_mm_per_s;
     /// How far the tip may be from its way between block ends: on the chords of arcs the control cannot drive as such, and
     /// without TRAORI where all axes run linearly.
     double chord_tolerance_mm = 0.005;

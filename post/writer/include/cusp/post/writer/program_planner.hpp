@@ -31,6 +31,8 @@ struct PostSummary {
     double largest_chord_error_mm = 0.0;
     double largest_axis_deviation_rad = 0.0;
     std::uint32_t largest_axis_deviation_cl_line = 0;
+    /// How often the tool leaves the part to unwind.
+    std::size_t excursions = 0;
     /// Smallest and largest value of each rotary axis, in chain order.
     std::array<std::pair<double, double>, 2> rotary_range_rad{};
     /// Total movement of the rotary axes between cutter locations, and the largest single one.
