@@ -15,7 +15,8 @@ set(packages
   "OpenSSL::Crypto=OpenSSL"
   "TBB::tbb=TBB"
   "Modbus::Modbus=Modbus"
-  "SQLite::SQLite3=SQLite3")
+  "SQLite::SQLite3=SQLite3"
+  "Clp::Clp=Clp")
 
 set(CUSP_CONFIG_ROOMS "")
 get_property(rooms GLOBAL PROPERTY CUSP_ROOMS)
@@ -42,5 +43,6 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/cusp-config.cmake.in"
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/cusp-config-version.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/cusp-config.cmake" "${PROJECT_BINARY_DIR}/cusp-config-version.cmake"
   "${CMAKE_CURRENT_LIST_DIR}/FindModbus.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake"
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cusp)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/cusp)

@@ -33,7 +33,7 @@ bool blanksSeparateCommas(const Lines& rows) {
     for (const std::string_view row : rows) {
         splitFields(row, ' ', fields);
         const bool numbers = std::all_of(fields.begin(), fields.end(),
-                                         [](std::string_view field) { return field.back() != ',' && isNumber(field); });
+                                         [](std::string_view field) { return isNumber(field) && field.back() != ','; });
         if (fields.size() < 3 || !numbers) return false;
         has_comma = has_comma || row.find(',') != std::string_view::npos;
     }

@@ -39,11 +39,21 @@ struct SectionResult {
     std::size_t beyond_edge = 0;        ///< points of the section left out because they lie beyond an edge
 };
 
-/// Points whose nominal footpoint lies within half the width of a plane, ordered by how the section runs; the arc length
-/// is that of the nominal section: chords between footpoints (moved into the plane along the nominal where the points
-/// leave it) corrected by the turn of the normals between them.
-[[nodiscard]] std::vector<SectionResult> cutSections(const SectionPlan& plan,
+/// "X=-5".
+[[nodiscard]] std::string sectionLabel(int axis, double position_mm);
+
+/// The sections of a plan. Where the file names a section of that label (a line of a measuring machine), its points;
+/// otherwise the points whose footpoint lies within half the width of the plane. Points lie on the section where the
+/// nominal meets the plane, ordered as the section runs; the arc length is that of the nominal section, chord by chord
+/// corrected by the turn of the tangents. One band is one curve: sections of several parts are joined by chords.
+[[nodiscard]] std::vector<SectionResult> cutSections(const SectionPlan& plan, const MeasuredPoints& points,
                                                      std::span<const PointDeviation> deviations,
                                                      const geometry::NominalShape& nominal, double edge_tolerance_mm);
+
+/// The sections the file names. One whose label is no plane keeps the order of the file, and chords as arc length.
+[[nodiscard]] std::vector<SectionResult> measuredSections(const MeasuredPoints& points,
+                                                          std::span<const PointDeviation> deviations,
+                                                          const geometry::NominalShape& nominal,
+                                                          double edge_tolerance_mm);
 
 }  // namespace cusp::inspect
