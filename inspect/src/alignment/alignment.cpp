@@ -100,7 +100,7 @@ private:
     /// From afar, with a sample of the points and distances to the edges.
     Vector6 coarse() {
         ResidualField field(sampled(points_), sampled(options_.weights), nominal_, model_, options_.offset_mm);
-        const double good_enough_mm = 1e-7 * model_.length_mm;
+        const double good_enough_mm = 1e-5 * model_.length_mm;
         const SolveOutcome out = solveLeastSquares(field, options_.locked, options_.max_iterations, good_enough_mm);
         summary_.coarse_iterations = out.iterations;
         return field.parameters();
@@ -121,10 +121,12 @@ private:
             outcome = solveLeastSquares(field, options_.locked, options_.max_iterations, tolerance_mm_);
             summary_.iterations += outcome.iterations;
             summary_.termination = outcome.termination;
-            if (outcome.termination == Termination::MaxIterations) return notConverged();
-            const bool same_points = !field.chooseParticipants(options_.edge_tolerance_mm);
+            // A point on the very edge may leave and come back for ever; after a few rounds what has left stays out.
+            constexpr int free_rounds = 4;
+            const bool same_points = !field.chooseParticipants(options_.edge_tolerance_mm, round >= free_rounds);
             if (same_points && same_loss) break;
         }
+        if (outcome.termination == Termination::MaxIterations) return notConverged();
         if (auto found = checkDetermination(field.normalEquations())) return found;
         if (options_.fit == FitKind::Minimax) return solveLargest(field);
         return std::nullopt;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cusp::inspect {
 namespace {
@@ -64,8 +65,15 @@ SolveOutcome solveLeastSquares(ResidualField& field, const std::array<bool, 6>& 
     field.moveTo(field.parameters());
     out.equations = field.normalEquations();
     double damping = 0.0;
+    double last_change_mm = std::numeric_limits<double>::infinity();
     bool moved = true;  // whether the field's footpoints are those of `best`
     Vector6 best = field.parameters();
+    int refused = 0;
+    constexpr int most_refused = 12;
+    // What the rounding of the distances can do to a sum of their squares.
+    const auto roundingOf = [tolerance_mm](const NormalEquations& at) {
+        return 1e-13 * at.cost + 4.0 * std::sqrt(at.cost * at.weight_sum) * tolerance_mm;
+    };
     const auto leave = [&](Termination termination) {
         if (!moved) field.moveTo(best);
         out.termination = termination;
@@ -76,11 +84,13 @@ SolveOutcome solveLeastSquares(ResidualField& field, const std::array<bool, 6>& 
         const double change_mm =
             std::sqrt(std::max(0.0, step.dot(out.equations.H * step)) / std::max(out.equations.weight_sum, 1e-300));
         if (change_mm <= tolerance_mm && damping < 1.0) return leave(Termination::Converged);
+        // Steps that are small and no longer shrink are the rounding of footpoints.
+        if (change_mm <= 1e2 * tolerance_mm && change_mm > 0.25 * last_change_mm) return leave(Termination::Converged);
+        last_change_mm = change_mm;
         ++out.iterations;
         field.moveTo(best + step);
         const NormalEquations next = field.normalEquations();
-        constexpr double rounding = 1e-13;
-        if (next.cost <= out.equations.cost * (1.0 + rounding)) {
+        if (next.cost <= out.equations.cost + roundingOf(out.equations)) {
             best += step;
             moved = true;
             out.equations = next;
@@ -89,7 +99,8 @@ SolveOutcome solveLeastSquares(ResidualField& field, const std::array<bool, 6>& 
         }
         moved = false;
         damping = std::max(10.0 * damping, 1e-4);
-        if (damping > 1e8) return leave(Termination::Stalled);
+        // Footpoints on edges give no true gradient; then no step helps, however short.
+        if (++refused == most_refused) return leave(Termination::Stalled);
     }
     return leave(Termination::MaxIterations);
 }

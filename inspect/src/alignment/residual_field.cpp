@@ -26,24 +26,29 @@ void forBlocks(std::size_t points, const Body& body) {
 }
 
 struct Weighting {
-    double cost = 0.0;    ///< ρ(e)
-    double weight = 1.0;  ///< ρ'(e)/(2e)
+    double cost = 0.0;       ///< ρ(e)
+    double weight = 1.0;     ///< ρ'(e)/(2e)
+    double curvature = 1.0;  ///< ρ''(e)/2, kept above a tenth of the weight so that the normal matrix stays definite
 };
 
+/// With the true curvature instead of the weight the iteration converges as Newton's does, not as reweighting does.
 Weighting weighting(Loss loss, double e, double s) {
     const double q = e * e / (s * s);
+    Weighting out{e * e, 1.0, 1.0};
     switch (loss) {
-        case Loss::Squared: break;
+        case Loss::Squared: return out;
         case Loss::Huber:
-            if (q > 1.0) return {2.0 * s * std::abs(e) - s * s, s / std::abs(e)};
+            if (q > 1.0) out = {2.0 * s * std::abs(e) - s * s, s / std::abs(e), 0.0};
             break;
-        case Loss::Cauchy: return {s * s * std::log1p(q), 1.0 / (1.0 + q)};
+        case Loss::Cauchy: out = {s * s * std::log1p(q), 1.0 / (1.0 + q), (1.0 - q) / ((1.0 + q) * (1.0 + q))}; break;
         case Loss::Tukey: {
             const double rest = q < 1.0 ? 1.0 - q : 0.0;
-            return {s * s / 3.0 * (1.0 - rest * rest * rest), rest * rest};
+            out = {s * s / 3.0 * (1.0 - rest * rest * rest), rest * rest, rest * (1.0 - 5.0 * q)};
+            break;
         }
     }
-    return {e * e, 1.0};
+    out.curvature = std::max(out.curvature, 0.1 * out.weight);
+    return out;
 }
 
 }  // namespace
@@ -85,10 +90,11 @@ void ResidualField::moveTo(const Vector6& parameters) {
     warm_ = true;
 }
 
-bool ResidualField::chooseParticipants(double edge_tolerance_mm) {
+bool ResidualField::chooseParticipants(double edge_tolerance_mm, bool only_remove) {
     std::vector<std::uint8_t> chosen(points_.size(), 1);
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const geometry::Footpoint& foot = footpoints_[i];
+        if (only_remove && !takesPart(i)) chosen[i] = 0;
         if (!foot.on_boundary) continue;
         const Vector3 away = moved_[i] - foot.position;
         if ((away - away.dot(foot.normal) * foot.normal).norm() > edge_tolerance_mm) chosen[i] = 0;
@@ -98,18 +104,23 @@ bool ResidualField::chooseParticipants(double edge_tolerance_mm) {
     return true;
 }
 
+Vector3 ResidualField::toOffset(std::size_t i) const {
+    const geometry::Footpoint& foot = footpoints_[i];
+    return moved_[i] - foot.position - offset_mm_ * foot.normal;
+}
+
 Vector3 ResidualField::direction(std::size_t i) const {
     const geometry::Footpoint& foot = footpoints_[i];
     if (rule_ == EdgeRule::Normal || !foot.on_boundary) return foot.normal;
-    const double distance = foot.distance_mm;
-    if (std::abs(distance) < 1e-9) return foot.normal;
-    return (moved_[i] - foot.position) / distance;
+    const Vector3 away = toOffset(i);
+    const double distance = away.norm();
+    return distance > 1e-9 ? Vector3(away / distance) : foot.normal;
 }
 
 double ResidualField::residual(std::size_t i) const {
     const geometry::Footpoint& foot = footpoints_[i];
-    if (rule_ == EdgeRule::Normal && foot.on_boundary) return (moved_[i] - foot.position).dot(foot.normal) - offset_mm_;
-    return foot.distance_mm - offset_mm_;
+    if (!foot.on_boundary) return foot.distance_mm - offset_mm_;
+    return rule_ == EdgeRule::Normal ? toOffset(i).dot(foot.normal) : toOffset(i).norm();
 }
 
 Vector6 ResidualField::gradient(std::size_t i) const {
@@ -127,11 +138,10 @@ void ResidualField::addPoint(std::size_t i, NormalEquations& sum) const {
     const double given = weights_.empty() ? 1.0 : weights_[i];
     const Weighting robust = weighting(loss_, e, loss_scale_mm_);
     const Vector6 J = gradient(i);
-    const double w = given * robust.weight;
     for (Eigen::Index c = 0; c < 6; ++c) {
-        const double wj = w * J[c];
+        const double wj = given * robust.curvature * J[c];
         for (Eigen::Index r = c; r < 6; ++r) sum.H(r, c) += wj * J[r];
-        sum.g[c] += wj * e;
+        sum.g[c] += given * robust.weight * e * J[c];
     }
     sum.cost += given * robust.cost;
     sum.square_sum += given * e * e;

@@ -27,13 +27,13 @@ struct PoseModel {
 };
 
 enum class EdgeRule {
-    Distance,  ///< beyond an edge the residual is the distance to it: pulls a part from afar into place
+    Distance,  ///< beyond an edge the residual is the distance to its offset: pulls a part from afar into place
     Normal,    ///< along the normal at the edge; points beyond the tolerance do not take part
 };
 
 struct NormalEquations {
-    Matrix6 H = Matrix6::Zero();  ///< Σ w·JᵀJ
-    Vector6 g = Vector6::Zero();  ///< Σ w·e·Jᵀ
+    Matrix6 H = Matrix6::Zero();  ///< Σ w·JᵀJ, with a loss Σ w·ρ''/2·JᵀJ
+    Vector6 g = Vector6::Zero();  ///< Σ w·e·Jᵀ, with a loss Σ w·ρ'/2·Jᵀ
     double cost = 0.0;            ///< Σ w·ρ(e), ρ(e) = e² without a loss
     double square_sum = 0.0;      ///< Σ w·e², loss left aside
     double weight_sum = 0.0;
@@ -54,7 +54,8 @@ public:
     void useEdgeRule(EdgeRule rule) { rule_ = rule; }
     void useLoss(Loss loss, double scale_mm) { loss_ = loss, loss_scale_mm_ = scale_mm; }
     /// Which points take part from now on: those at most so far beyond an edge. True when that is another choice than before.
-    bool chooseParticipants(double edge_tolerance_mm);
+    /// With `only_remove`, points that were left out stay out.
+    bool chooseParticipants(double edge_tolerance_mm, bool only_remove = false);
 
     /// At the footpoints of the last `moveTo`.
     [[nodiscard]] NormalEquations normalEquations() const;
@@ -70,6 +71,8 @@ public:
 
 private:
     [[nodiscard]] Vector3 direction(std::size_t i) const;
+    /// From the point of the offset surface to the point.
+    [[nodiscard]] Vector3 toOffset(std::size_t i) const;
     void addPoint(std::size_t i, NormalEquations& sum) const;
 
     std::vector<Vector3> points_;

@@ -39,10 +39,11 @@ struct AlignmentOptions {
     Loss loss = Loss::Squared;     ///< of least squares
     double loss_scale_mm =
         0.0;  ///< 0: 4.685 (Tukey), 2.385 (Cauchy), 1.345 (Huber) times the robust spread of residuals
-    std::vector<double> weights;  ///< one per point, ≥ 0, or empty
-    double offset_mm = 0.0;       ///< the points lie this far outside the nominal: the probe's radius for centres
+    std::vector<double> weights{};  ///< one per point, ≥ 0, or empty
+    double offset_mm = 0.0;         ///< the points lie this far outside the nominal: the probe's radius for centres
     RigidTransform start = RigidTransform::Identity();  ///< nominal_from_measured to begin with
-    double edge_tolerance_mm = 0.1;  ///< points farther than this beyond an edge of the nominal do not take part
+    /// Points farther than this beyond an edge of the nominal do not take part: there the distance is not along the normal.
+    double edge_tolerance_mm = 1e-5;
     int max_iterations = 100;
 };
 
