@@ -19,8 +19,8 @@ struct Signature {
     std::string_view name;
     std::size_t arguments;
 };
-constexpr Signature signatures[] = {{"CYCLE81", 6},  {"CYCLE82", 6}, {"CYCLE83", 12},
-                                    {"CYCLE84", 12}, {"CYCLE85", 8}, {"CYCLE840", 11}};
+constexpr Signature signatures[] = {{"CYCLE81", 6}, {"CYCLE82", 6},  {"CYCLE83", 12}, {"CYCLE84", 12},
+                                    {"CYCLE85", 8}, {"CYCLE86", 11}, {"CYCLE840", 11}};
 
 /// Distance kept from the ground of the last peck when the tool comes back at rapid, and lift that breaks a chip.
 constexpr double anticipation = 0.6;
@@ -60,6 +60,7 @@ public:
         if (hole_.retract < hole_.start)
             return fmt::format("the retract plane {:g} lies below the start {:g}", hole_.retract, hole_.start);
         if (tapping() && name_ != "CYCLE840" && pitch() == 0.0) return "the thread has no pitch";
+        if (name_ == "CYCLE86" && at(6) != 3.0 && at(6) != 4.0) return "SDIR is 3 or 4";
         return {};
     }
 
@@ -71,6 +72,8 @@ public:
             tap();
         else if (name_ == "CYCLE85")
             bore();
+        else if (name_ == "CYCLE86")
+            boreAndStepAside();
         else {
             feed(hole_.bottom);
             dwell(at(5));
@@ -147,6 +150,8 @@ private:
             if (speed > 0.0) step.speed_rpm = speed;
         };
         const bool rigid = name_ == "CYCLE84";
+        // Rigid tapping turns the spindle itself: to the right, or to the left for a pitch below 0.
+        if (rigid) add(Kind::SpindleTurn, at(8) < 0.0 || (at(8) == 0.0 && at(7) < 0.0) ? 4.0 : 3.0);
         thread(hole_.bottom, rigid ? at(10) : 0.0);
         dwell(at(5));
         add(Kind::SpindleReverse, 0.0);
@@ -160,6 +165,27 @@ private:
         dwell(at(5));
         CycleStep& up = feed(hole_.start);
         if (at(7) > 0.0) up.feed = at(7);
+    }
+
+    /// At the bottom the spindle stops where POSS says, so that the edge can step away from the wall before it leaves.
+    void boreAndStepAside() {
+        add(Kind::SpindleTurn, at(6));
+        feed(hole_.bottom);
+        dwell(at(5));
+        add(Kind::SpindleTurn, 5.0);
+        aside(1.0);
+        rapid(hole_.start);
+        aside(-1.0);
+        add(Kind::SpindleTurn, at(6));
+    }
+
+    /// RPA, RPO in the plane and RPAP along its normal; back only in the plane.
+    void aside(double way) {
+        if (at(7) == 0.0 && at(8) == 0.0 && at(9) == 0.0) return;
+        CycleStep& step = add(Kind::Aside, 0.0);
+        step.first = way * at(7);
+        step.second = way * at(8);
+        step.up = way > 0.0 ? at(9) : 0.0;
     }
 
     std::string_view name_;

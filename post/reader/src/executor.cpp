@@ -92,6 +92,11 @@ void Executor::applyCodes(const BlockContent& content) {
         auto& active = active_[static_cast<std::size_t>(code.group)];
         if (!code.modal || active == code.name) continue;
         active = code.name;
+        if (code.group == group::plane) state_.plane = code.name;
+        if (code.group == group::compensation)
+            compensate(code.name == "G41"   ? RadiusCompensation::Left
+                       : code.name == "G42" ? RadiusCompensation::Right
+                                            : RadiusCompensation::Off);
         if (code.group == group::work_offset) {
             state_.work_offset = std::string(code.name);
             forgetLinear();
@@ -104,6 +109,12 @@ void Executor::applyCodes(const BlockContent& content) {
             state_.feed.value.reset();
         }
     }
+}
+
+void Executor::compensate(RadiusCompensation side) {
+    state_.compensation = side;
+    if (side != RadiusCompensation::Off && transformation_)
+        error("nc.unsupported", "cutter radius compensation under TRAORI is not interpreted");
 }
 
 void Executor::applyFeedAndSpeed(const BlockContent& content) {
@@ -131,6 +142,7 @@ void Executor::applyTransformation(bool on) {
         sink_.event(place_, TransformationSwitch{on});
     }
     transformation_ = on;
+    compensate(state_.compensation);
 }
 
 void Executor::applyTool(const BlockContent& content) {

@@ -14,6 +14,12 @@ namespace {
 
 constexpr double same_height_mm = 1e-9;
 
+SpindleTurn turnOf(double m_function) {
+    return m_function == 3.0   ? SpindleTurn::Clockwise
+           : m_function == 4.0 ? SpindleTurn::CounterClockwise
+                               : SpindleTurn::Off;
+}
+
 }  // namespace
 
 /// TRANS and ROT replace the programmable frame, ATRANS and AROT go on from it. ROT with several angles turns about Z, then
@@ -99,35 +105,41 @@ void Executor::runCycle(const CycleCall& cycle) {
     ModalSnapshot state = state_;
     for (const CycleStep& step : cycle.steps) {
         using Kind = CycleStep::Kind;
+        if (step.kind == Kind::SpindleTurn) state.spindle = turnOf(step.value);
         if (step.kind == Kind::DwellSeconds) sink_.event(place_, DwellTime{step.value, std::nullopt});
         if (step.kind == Kind::DwellRevolutions) sink_.event(place_, DwellTime{std::nullopt, step.value});
         if (step.kind == Kind::SpindleReverse)
             state.spindle = state.spindle == SpindleTurn::Clockwise          ? SpindleTurn::CounterClockwise
                             : state.spindle == SpindleTurn::CounterClockwise ? SpindleTurn::Clockwise
                                                                              : SpindleTurn::Off;
-        if (step.kind == Kind::SpindleRestore)
-            state.spindle = step.value == 3.0   ? SpindleTurn::Clockwise
-                            : step.value == 4.0 ? SpindleTurn::CounterClockwise
-                            : step.value == 5.0 ? SpindleTurn::Off
-                                                : turn_before;
-        if (step.kind == Kind::Rapid || step.kind == Kind::Feed) runCycleStep(step, axis, state);
+        if (step.kind == Kind::SpindleRestore) state.spindle = step.value == 0.0 ? turn_before : turnOf(step.value);
+        if (step.kind == Kind::Rapid || step.kind == Kind::Feed || step.kind == Kind::Aside)
+            runCycleStep(step, axis, state);
     }
     state_.spindle = state.spindle;
 }
 
 void Executor::runCycleStep(const CycleStep& step, std::size_t axis, ModalSnapshot& state) {
-    auto& height = position_.linear_mm[axis];
-    const double target = step.value * mmPerUnit();
-    if (height && std::abs(*height - target) < same_height_mm) return;
+    auto target = position_.linear_mm;
+    if (step.kind == CycleStep::Kind::Aside) {
+        const std::array<double, 3> by = {step.first, step.second, step.up};
+        for (std::size_t i = 0; i < 3; ++i) {
+            auto& coordinate = target[(axis + 1 + i) % 3];
+            if (coordinate) coordinate = *coordinate + by[i] * mmPerUnit();
+        }
+    } else
+        target[axis] = step.value * mmPerUnit();
+    const auto& height = position_.linear_mm[axis];
+    if (step.kind != CycleStep::Kind::Aside && height && std::abs(*height - *target[axis]) < same_height_mm) return;
     ExecutedMotion motion;
     motion.place = place_;
-    motion.code = step.kind == CycleStep::Kind::Rapid ? MotionCode::Rapid : MotionCode::Linear;
+    motion.code = step.kind == CycleStep::Kind::Feed ? MotionCode::Linear : MotionCode::Rapid;
     motion.transformation = transformation_;
     motion.orientation_path = orientationPath();
     motion.in_cycle = true;
     motion.start = position_;
     motion.start_pose = pose(position_);
-    height = target;
+    position_.linear_mm = target;
     frame_changed_[axis] = false;
     motion.end = position_;
     motion.end_pose = pose(position_);

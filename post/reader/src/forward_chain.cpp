@@ -64,14 +64,19 @@ ForwardChain::ForwardChain(const machine::MachineDefinition& machine, const Mach
     places_tip_ = std::abs(dot(d[0], cross(d[1], d[2]))) > 1e-6;
 }
 
-/// Joint by joint from the tool to the workpiece, each turning or moving everything behind it.
-Vector3 ForwardChain::tip(const Vector3& programmed_mm, const RotaryValues& rotary_rad) const {
-    // How far each linear axis stands from zero (Cramer), from the definition of the programmed values.
+/// By Cramer's rule, from the definition of the programmed values.
+std::array<double, 3> ForwardChain::linearValues(const Vector3& programmed_mm) const {
     const Vector3 way = programmed_mm + origin_mm_ - tip_at_zero_mm_;
     const auto& d = linear_directions_;
     const double whole = dot(d[0], cross(d[1], d[2]));
-    const std::array<double, 3> values = {dot(way, cross(d[1], d[2])) / whole, dot(d[0], cross(way, d[2])) / whole,
-                                          dot(d[0], cross(d[1], way)) / whole};
+    return {dot(way, cross(d[1], d[2])) / whole, dot(d[0], cross(way, d[2])) / whole,
+            dot(d[0], cross(d[1], way)) / whole};
+}
+
+/// Joint by joint from the tool to the workpiece, each turning or moving everything behind it.
+Vector3 ForwardChain::tip(const Vector3& programmed_mm, const RotaryValues& rotary_rad) const {
+    const std::array<double, 3> values = linearValues(programmed_mm);
+    const auto& d = linear_directions_;
     Vector3 point = tip_at_zero_mm_;
     for (std::size_t i = places_.size(); i-- > 0;) {
         const Place& place = places_[i];
@@ -82,6 +87,32 @@ Vector3 ForwardChain::tip(const Vector3& programmed_mm, const RotaryValues& rota
             point = point + values[place.linear] * d[place.linear];
     }
     return point - origin_mm_;
+}
+
+/// A point that moves with at most `speed` and `bend` (first and second derivative) stays within `speed` of where it was;
+/// y = c + R(ωt)(x − c) then has |y'| ≤ speed + ωr and |y''| ≤ bend + 2ω·speed + ω²r, r the largest distance from the axis.
+double ForwardChain::tipBend(const Vector3& from_mm, const RotaryValues& from_rad, const Vector3& to_mm,
+                             const RotaryValues& to_rad) const {
+    const std::array<double, 3> from = linearValues(from_mm);
+    const std::array<double, 3> to = linearValues(to_mm);
+    Vector3 point = tip_at_zero_mm_;
+    double speed = 0.0;
+    double bend = 0.0;
+    for (std::size_t i = places_.size(); i-- > 0;) {
+        const Place& place = places_[i];
+        if (!place.rotary) {
+            point = point + from[place.linear] * linear_directions_[place.linear];
+            speed += std::abs(to[place.linear] - from[place.linear]);
+            continue;
+        }
+        const Vector3& direction = joints_[*place.rotary].direction;
+        const double turn = std::abs(to_rad[*place.rotary] - from_rad[*place.rotary]);
+        const double radius = norm(cross(direction, point - place.point_mm)) + speed;
+        bend += 2.0 * turn * speed + turn * turn * radius;
+        speed += turn * radius;
+        point = place.point_mm + rotated(point - place.point_mm, direction, from_rad[*place.rotary]);
+    }
+    return bend;
 }
 
 bool ForwardChain::withinLimits(std::size_t joint, double angle_rad) const {

@@ -22,6 +22,12 @@ bool rotaryKnown(const ExecutedMotion& motion, std::size_t count) {
     return true;
 }
 
+RotaryValues valuesOf(const AxisPositions& at) {
+    RotaryValues values{};
+    for (std::size_t i = 0; i < max_rotary_axes; ++i) values[i] = at.rotary_rad[i].value_or(0.0);
+    return values;
+}
+
 }  // namespace
 
 ToolPose poseAt(const ExecutedMotion& motion, const ForwardChain& chain, double fraction) {
@@ -42,6 +48,29 @@ ToolPose poseAt(const ExecutedMotion& motion, const ForwardChain& chain, double 
     pose.axis = chain.toolAxis(values);
     if (motion.joint_linear) pose.tip_mm = chain.tip(on_path, values);
     return pose;
+}
+
+/// On an arc (r·e)'' is at most r·θ² + 2·|Δr|·θ. A tool axis turned by joints moves at no more than the sum of their rates,
+/// and bends by no more than its square.
+Bend bendOf(const ExecutedMotion& motion, const ForwardChain& chain) {
+    Bend bend;
+    if (motion.arc) {
+        const double sweep = std::abs(motion.arc->sweep_rad);
+        bend.tip_mm = std::max(motion.arc->start_radius_mm, motion.arc->end_radius_mm) * sweep * sweep +
+                      2.0 * std::abs(motion.arc->end_radius_mm - motion.arc->start_radius_mm) * sweep;
+    }
+    const std::size_t count = chain.rotaryCount();
+    double turn = angleBetween(motion.start_pose->axis, motion.end_pose->axis);
+    if (motion.orientation_path == OrientationPath::RotaryLinear && rotaryKnown(motion, count)) {
+        turn = 0.0;
+        for (std::size_t i = 0; i < count; ++i)
+            turn += std::abs(*motion.end.rotary_rad[i] - *motion.start.rotary_rad[i]);
+        if (motion.joint_linear)
+            bend.tip_mm +=
+                chain.tipBend(motion.path_start_mm, valuesOf(motion.start), motion.path_end_mm, valuesOf(motion.end));
+    }
+    bend.axis_rad = turn * turn;
+    return bend;
 }
 
 double rotaryTravel(const ExecutedMotion& motion) {

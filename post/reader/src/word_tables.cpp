@@ -13,19 +13,19 @@ namespace cusp::post::reader {
 namespace {
 
 constexpr GroupCode group_codes[] = {
-    {"G0", 1},          {"G1", 1},          {"G2", 1},         {"G3", 1},         {"STOPFIFO", 4},  {"STARTFIFO", 4},
-    {"FIFOCTRL", 4},    {"G17", 6},         {"G18", 6},        {"G19", 6},        {"G40", 7},       {"G53", 9, false},
-    {"G153", 9, false}, {"SUPA", 9, false}, {"G60", 10},       {"G64", 10},       {"G641", 10},     {"G642", 10},
-    {"G643", 10},       {"G644", 10},       {"G645", 10},      {"G9", 11, false}, {"G601", 12},     {"G602", 12},
-    {"G603", 12},       {"G70", 13},        {"G71", 13},       {"G700", 13},      {"G710", 13},     {"G90", 14},
-    {"G91", 14},        {"G93", 15},        {"G94", 15},       {"G95", 15},       {"CFC", 16},      {"CFTCP", 16},
-    {"CFIN", 16},       {"NORM", 17},       {"KONT", 17},      {"G450", 18},      {"G451", 18},     {"BRISK", 21},
-    {"SOFT", 21},       {"DRIVE", 21},      {"CUT2D", 22},     {"CUT2DF", 22},    {"CUT3DC", 22},   {"CUT3DF", 22},
-    {"FFWOF", 24},      {"FFWON", 24},      {"ORIWKS", 25},    {"ORIMKS", 25},    {"ORIC", 27},     {"ORID", 27},
-    {"WALIMON", 28},    {"WALIMOF", 28},    {"COMPOF", 30},    {"COMPON", 30},    {"COMPCURV", 30}, {"COMPCAD", 30},
-    {"COMPSURF", 30},   {"FNORM", 37},      {"SPATH", 45},     {"UPATH", 45},     {"CP", 49},       {"ORIVECT", 51},
-    {"ORIPLANE", 51},   {"ORIAXES", 51},    {"RTLION", 55},    {"RTLIOF", 55},    {"DYNNORM", 59},  {"DYNPOS", 59},
-    {"DYNROUGH", 59},   {"DYNSEMIFIN", 59}, {"DYNFINISH", 59}, {"DYNPREC", 59},
+    {"G0", 1},        {"G1", 1},         {"G2", 1},          {"G3", 1},          {"STOPFIFO", 4},   {"STARTFIFO", 4},
+    {"FIFOCTRL", 4},  {"G17", 6},        {"G18", 6},         {"G19", 6},         {"G40", 7},        {"G41", 7},
+    {"G42", 7},       {"G53", 9, false}, {"G153", 9, false}, {"SUPA", 9, false}, {"G60", 10},       {"G64", 10},
+    {"G641", 10},     {"G642", 10},      {"G643", 10},       {"G644", 10},       {"G645", 10},      {"G9", 11, false},
+    {"G601", 12},     {"G602", 12},      {"G603", 12},       {"G70", 13},        {"G71", 13},       {"G700", 13},
+    {"G710", 13},     {"G90", 14},       {"G91", 14},        {"G93", 15},        {"G94", 15},       {"G95", 15},
+    {"CFC", 16},      {"CFTCP", 16},     {"CFIN", 16},       {"NORM", 17},       {"KONT", 17},      {"G450", 18},
+    {"G451", 18},     {"BRISK", 21},     {"SOFT", 21},       {"DRIVE", 21},      {"CUT2D", 22},     {"CUT2DF", 22},
+    {"CUT3DC", 22},   {"CUT3DF", 22},    {"FFWOF", 24},      {"FFWON", 24},      {"ORIWKS", 25},    {"ORIMKS", 25},
+    {"ORIC", 27},     {"ORID", 27},      {"WALIMON", 28},    {"WALIMOF", 28},    {"COMPOF", 30},    {"COMPON", 30},
+    {"COMPCURV", 30}, {"COMPCAD", 30},   {"COMPSURF", 30},   {"FNORM", 37},      {"SPATH", 45},     {"UPATH", 45},
+    {"CP", 49},       {"ORIVECT", 51},   {"ORIPLANE", 51},   {"ORIAXES", 51},    {"RTLION", 55},    {"RTLIOF", 55},
+    {"DYNNORM", 59},  {"DYNPOS", 59},    {"DYNROUGH", 59},   {"DYNSEMIFIN", 59}, {"DYNFINISH", 59}, {"DYNPREC", 59},
 };
 
 struct Refused {
@@ -228,8 +228,6 @@ std::string_view refusedWord(std::string_view name) {
 
 std::string_view refusedCode(int g_number) {
     switch (g_number) {
-        case 41:
-        case 42: return "cutter radius compensation";
         case 5:
         case 7: return "travel on an inclined axis";
         case 33:

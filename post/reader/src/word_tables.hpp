@@ -13,6 +13,7 @@ namespace cusp::post::reader {
 namespace group {
 inline constexpr int motion = 1;
 inline constexpr int plane = 6;
+inline constexpr int compensation = 7;
 inline constexpr int work_offset = 8;
 inline constexpr int frame_suppression = 9;
 inline constexpr int units = 13;

@@ -57,6 +57,10 @@ Alignment::Alignment(const MachineFile& machine, const ExpectedPath* expected, c
       findings_(report, program_name) {
     process_limits_.feed_tolerance = options.feed_tolerance;
     process_limits_.speed_tolerance_rpm = options.speed_tolerance_rpm;
+    const auto& spindle = machine.machine.spindle.axis;
+    process_limits_.cutting_edge = options.cutting_edge;
+    if (!options.fixed_tool_length_axis)
+        process_limits_.plane = std::abs(spindle[2]) > 0.7 ? "G17" : std::abs(spindle[1]) > 0.7 ? "G18" : "G19";
     if (options.check_work_offset) process_limits_.work_offset = machine.control.work_offset;
 }
 
@@ -158,6 +162,7 @@ bool Alignment::onTheWay(const ExecutedMotion& motion) {
     if (held_) extra(*held_);
     held_.reset();
     const ExpectedPoint& point = expected_->points[next_];
+    if (standsStill(motion) && isRapid(motion)) return true;  // a hole where the tool is already
     if (standsStill(motion)) {
         ++report_.extra;
         findings_.error(
@@ -221,7 +226,8 @@ void Alignment::meet(const ExecutedMotion& motion, std::size_t index) {
     if (!isRapid(motion))
         checkProcess(motion, expected_->processes[point.process], point.line, process_limits_, findings_);
     next_ = index + 1;
-    fraction_ = drilled_ = 0.0;
+    fraction_ = 0.0;
+    hole_ = {};
     at_ = motion.end_pose;
 }
 
@@ -290,17 +296,21 @@ void Alignment::checkKind(const ExecutedMotion& motion, const ExpectedPoint& poi
 }
 
 void Alignment::checkBetween(const ExecutedMotion& motion, double to) {
-    if (!motion.start_pose || next_ == 0 || !at_) return;
+    // A block behind one that leads nowhere comes from off the path; that one is named.
+    if (next_ == 0 || !at_ || !motion.start_pose || !difference(*motion.start_pose, *at_).within(tolerance_)) return;
     const ExpectedPoint& point = expected_->points[next_];
     const PoseError stray = strayBetween(motion, chain_, nextMove(), fraction_, to);
-    raise(report_.max_tip_between_mm, stray.tip_mm, motion.place, point.line);
-    raise(report_.max_axis_between_rad, stray.axis_rad, motion.place, point.line);
+    const bool rapid = isRapid(motion);
+    raise(rapid ? report_.max_tip_between_rapid_mm : report_.max_tip_between_mm, stray.tip_mm, motion.place,
+          point.line);
+    raise(rapid ? report_.max_axis_between_rapid_rad : report_.max_axis_between_rad, stray.axis_rad, motion.place,
+          point.line);
     if (stray.tip_mm > options_.between_tip_tolerance_mm)
         findings_.error(
             "verify.between-tip", motion.place,
             fmt::format("between its ends the tip is up to {:.3g} mm off the move to CL line {}, tolerance {:.3g} mm",
                         stray.tip_mm, point.line, options_.between_tip_tolerance_mm));
-    if (options_.between_axis_tolerance_rad && stray.axis_rad > *options_.between_axis_tolerance_rad)
+    if (!rapid && options_.between_axis_tolerance_rad && stray.axis_rad > *options_.between_axis_tolerance_rad)
         findings_.error(
             "verify.between-axis", motion.place,
             fmt::format("between its ends the tool axis is up to {:.3g}° off the move to CL line {}, tolerance {:.3g}°",
@@ -312,7 +322,7 @@ void Alignment::checkBetween(const ExecutedMotion& motion, double to) {
 /// between two ends on the same branch leave the great circle by at most half the angle between the ends, the pole
 /// included (C sweeping by 2φ at tilt a: a·(1 − cos φ) against an angle of 2·a·sin φ); on the wrong one by far more.
 void Alignment::checkTurns(const ExecutedMotion& motion, std::size_t cl_line) {
-    if (isRapid(motion) || !motion.start_pose) return;
+    if (!motion.start_pose || !at_) return;
     const double travel = reader::rotaryTravel(motion);
     const double turn = reader::angleBetween(motion.start_pose->axis, motion.end_pose->axis);
     if (travel <= 2.0 * turn + branch_slack_rad) return;
@@ -321,10 +331,12 @@ void Alignment::checkTurns(const ExecutedMotion& motion, std::size_t cl_line) {
     const PoseError stray = strayBetween(linear, chain_, {*motion.start_pose, *motion.end_pose}, 0.0, 1.0);
     if (stray.axis_rad <= turn + branch_slack_rad && travel <= std::numbers::pi + limit_slack_rad) return;
     const std::string text = fmt::format(
-        "the rotary axes go the long way round in this feed move to CL line {}: one turns {:.4g}°, the tool axis swings "
-        "{:.3g}° off a way of {:.3g}°",
-        cl_line, base::degFromRad(travel), base::degFromRad(stray.axis_rad), base::degFromRad(turn));
-    if (stray.axis_rad > options_.pole_cone_rad || travel > std::numbers::pi + limit_slack_rad)
+        "the rotary axes go the long way round in this {} to CL line {}: one turns {:.4g}°, the tool axis swings {:.3g}° "
+        "off a way of {:.3g}°",
+        isRapid(motion) ? "rapid" : "feed move", cl_line, base::degFromRad(travel), base::degFromRad(stray.axis_rad),
+        base::degFromRad(turn));
+    // In a rapid, a change of branch on the way to the next cut may be meant.
+    if (!isRapid(motion) && (stray.axis_rad > options_.pole_cone_rad || travel > std::numbers::pi + limit_slack_rad))
         findings_.error("verify.winding", motion.place, text);
     else
         findings_.warning("verify.winding", motion.place, text);

@@ -42,6 +42,13 @@ private:
         bool turned = false;
     };
 
+    /// On the way to the bottom of a hole.
+    struct HoleProgress {
+        double drilled_mm = 0.0;        ///< below the location
+        std::optional<double> peck_mm;  ///< the last
+        bool out = true;                ///< of the hole, since the last peck
+    };
+
     void checkLimits(const reader::ExecutedMotion& motion);
     void checkReach(const reader::ExecutedMotion& motion);
     void compare(const reader::ExecutedMotion& motion);
@@ -79,8 +86,8 @@ private:
     Findings findings_;
 
     std::size_t next_ = 0;
-    double fraction_ = 0.0;               ///< how far the path has come from point next_−1 to next_
-    double drilled_ = 0.0;                ///< the part of the way to the bottom of a hole that is cut
+    double fraction_ = 0.0;  ///< how far the path has come from point next_−1 to next_
+    HoleProgress hole_;
     std::optional<double> dwelt_s_;       ///< since the last motion
     std::optional<reader::ToolPose> at_;  ///< where the path stands: the last block end on it
     std::optional<Held> held_;

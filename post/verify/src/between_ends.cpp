@@ -14,9 +14,11 @@ namespace {
 
 using reader::Vector3;
 
-constexpr double sample_step_rad = base::radFromDeg(0.25);
-constexpr double fewest_samples = 4.0;
-constexpr double most_samples = 1440.0;
+/// What may go unseen between two samples: 0.05 µm and 0.0006°.
+constexpr double unseen_mm = 5e-5;
+constexpr double unseen_rad = 1e-5;
+/// Reached by turns of many revolutions only; what then may go unseen is counted as seen.
+constexpr double most_samples = 5000.0;
 
 struct Projection {
     double fraction = 0.0;
@@ -56,26 +58,42 @@ std::optional<double> ExpectedMove::fractionOf(const reader::ToolPose& pose, con
         tip = onLine(pose.tip_mm, from.tip_mm, to.tip_mm);
     const Projection axis = onGreatCircle(pose.axis, from.axis, to.axis);
     if (tip.distance > tolerance.tip_mm || axis.distance > tolerance.axis_rad) return std::nullopt;
-    return arc != nullptr || reader::norm(to.tip_mm - from.tip_mm) > tolerance.tip_mm ? tip.fraction : axis.fraction;
+    const double length = arc != nullptr ? arc->length() : reader::norm(to.tip_mm - from.tip_mm);
+    if (length <= tolerance.tip_mm) return axis.fraction;
+    // The axis has to be the one of the place: as exactly as the place is known.
+    const double slack = tolerance.axis_rad + reader::angleBetween(from.axis, to.axis) * tolerance.tip_mm / length;
+    const Vector3 wanted = reader::onGreatCircle(from.axis, to.axis, tip.fraction);
+    if (reader::angleBetween(pose.axis, wanted) > slack) return std::nullopt;
+    return tip.fraction;
 }
 
+/// A distance from a straight way, or from the place the expected way has at the same fraction, is a norm of something that
+/// bends by no more than the two ways together, so it exceeds that at the samples by no more than an eighth of the bend by
+/// the square of their number.
 PoseError strayBetween(const reader::ExecutedMotion& motion, const reader::ForwardChain& chain,
                        const ExpectedMove& move, double from, double to) {
+    reader::Bend bend = reader::bendOf(motion, chain);
+    const double part = std::abs(to - from);
+    const double turn = part * reader::angleBetween(move.from.axis, move.to.axis);
+    bend.axis_rad += turn * turn;
+    if (move.arc != nullptr) bend.tip_mm += part * part * move.arc->bend();
+    const double wanted = std::sqrt(std::max(bend.tip_mm / (8.0 * unseen_mm), bend.axis_rad / (8.0 * unseen_rad)));
+    const double count = std::clamp(std::ceil(wanted), 1.0, most_samples);
     PoseError worst;
-    const double turn =
-        std::max({reader::rotaryTravel(motion), reader::angleBetween(motion.start_pose->axis, motion.end_pose->axis),
-                  motion.arc ? std::abs(motion.arc->sweep_rad) : 0.0,
-                  move.arc != nullptr ? std::abs(to - from) * move.arc->sweep_rad : 0.0});
-    if (turn == 0.0) return worst;  // a straight tip between two ends that were checked
-    const double count = std::clamp(std::ceil(turn / sample_step_rad), fewest_samples, most_samples);
-    for (double sample = 1.0; sample < count; sample += 1.0) {
+    for (double sample = 0.0; sample <= count; sample += 1.0) {
         const double fraction = sample / count;
         const reader::ToolPose pose = reader::poseAt(motion, chain, fraction);
-        const Vector3 wanted = reader::onGreatCircle(move.from.axis, move.to.axis, from + fraction * (to - from));
-        const double off = move.arc != nullptr ? reader::norm(pose.tip_mm - move.arc->at(from + fraction * (to - from)))
+        const double along = from + fraction * (to - from);
+        const double off = move.arc != nullptr ? reader::norm(pose.tip_mm - move.arc->at(along))
                                                : onLine(pose.tip_mm, move.from.tip_mm, move.to.tip_mm).distance;
         worst.tip_mm = std::max(worst.tip_mm, off);
-        worst.axis_rad = std::max(worst.axis_rad, reader::angleBetween(pose.axis, wanted));
+        worst.axis_rad =
+            std::max(worst.axis_rad,
+                     reader::angleBetween(pose.axis, reader::onGreatCircle(move.from.axis, move.to.axis, along)));
+    }
+    if (wanted > most_samples) {
+        worst.tip_mm += bend.tip_mm / (8.0 * count * count);
+        worst.axis_rad += bend.axis_rad / (8.0 * count * count);
     }
     return worst;
 }

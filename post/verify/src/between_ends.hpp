@@ -33,12 +33,13 @@ struct ExpectedMove {
     reader::ToolPose to;
     const ExpectedArc* arc = nullptr;
 
-    /// Where `pose` lies on the move, 0 to 1, when tip and axis both lie on it within tolerance.
+    /// Where `pose` lies on the move, 0 to 1, when tip and axis both lie on it within tolerance, and at one place of it.
     [[nodiscard]] std::optional<double> fractionOf(const reader::ToolPose& pose, const Tolerance& tolerance) const;
 };
 
-/// Largest departures from `move` of a block that runs from fraction `from` to fraction `to` of it, sampled as the control
-/// interpolates. The tip is held against the line, or against the arc at the same fraction; the axis against the great circle at the same fraction.
+/// Largest departures from `move` of a block that runs from fraction `from` to fraction `to` of it, its ends included,
+/// sampled as the control interpolates and so densely that no more than 0.05 µm and 0.0006° can go unseen. The tip is held
+/// against the line, or against the arc at the same fraction; the axis against the great circle at the same fraction.
 [[nodiscard]] PoseError strayBetween(const reader::ExecutedMotion& motion, const reader::ForwardChain& chain,
                                      const ExpectedMove& move, double from, double to);
 

@@ -18,8 +18,7 @@ reader::ToolPose toReader(const toolpath::CutterLocation& at) { return {toReader
 
 class Walk {
 public:
-    Walk(ExpectedPath& out, const std::string& file, base::Diagnostics& report)
-        : out_(out), file_(file), report_(report) {}
+    explicit Walk(ExpectedPath& out) : out_(out) {}
 
     void operator()(const toolpath::LinearMotion& motion) {
         add(toReader(motion.location), motion.kind == toolpath::MotionKind::Rapid);
@@ -61,9 +60,12 @@ public:
         expected.approach_mm = cycle.clearance_mm.value_or(cycle.retract_mm.value_or(0.0));
         expected.depth_mm = cycle.depth_mm;
         expected.dwell_s = cycle.dwell_s;
-        expected.reverses = cycle.kind == Kind::Tap;
-        if ((cycle.kind == Kind::Deep || cycle.kind == Kind::BreakChip) && cycle.peck_mm)
-            expected.largest_peck_mm = std::max(*cycle.peck_mm, cycle.first_peck_mm.value_or(0.0));
+        expected.comes_out = cycle.kind == Kind::Deep;
+        if ((cycle.kind == Kind::Deep || cycle.kind == Kind::BreakChip) && cycle.peck_mm) {
+            const double first = cycle.first_peck_mm.value_or(*cycle.peck_mm);
+            expected.smallest_peck_mm = std::min(*cycle.peck_mm, first);
+            expected.largest_peck_mm = std::max(*cycle.peck_mm, first);
+        }
         out_.cycles.push_back(expected);
         modal_feed_ = process_.feed;
         if (cycle.feed) change().feed = cycle.feed;
@@ -80,7 +82,9 @@ public:
         add(above(cycle.approach_mm), true).optional = !cycle_.clearance_mm;
         add(above(-cycle.depth_mm), false).cycle = static_cast<std::uint32_t>(out_.cycles.size() - 1);
         const bool at_feed = cycle_.kind == Kind::Bore || cycle_.kind == Kind::Tap;
+        if (cycle_.kind == Kind::Tap) reverseSpindle();
         if (at_feed) add(above(cycle.approach_mm), false).leaves_hole = true;
+        if (cycle_.kind == Kind::Tap) reverseSpindle();
         add(above(retract), true).leaves_hole = !at_feed;
     }
 
@@ -108,15 +112,15 @@ public:
     void operator()(const toolpath::Remark&) {}
     void operator()(const toolpath::Dwell&) {}
     void operator()(const toolpath::ProgramEnd&) {}
-    void operator()(const toolpath::CutterCompensation& command) {
-        if (command.side != toolpath::CutterCompensation::Side::Off) refuse("paths under CUTCOM are");
-    }
+    void operator()(const toolpath::CutterCompensation& command) { change().compensation = command.side; }
 
     std::uint32_t line = 0;
 
 private:
-    void refuse(const char* what) {
-        report_.error("verify.unsupported", std::string(what) + " not compared with programs", {file_, line, 0, {}});
+    void reverseSpindle() {
+        using Turn = toolpath::SpindleCommand::Turn;
+        if (!process_.turn || *process_.turn == Turn::Off) return;
+        change().turn = *process_.turn == Turn::Clockwise ? Turn::CounterClockwise : Turn::Clockwise;
     }
 
     ExpectedPoint& add(const reader::ToolPose& pose, bool rapid) {
@@ -139,8 +143,6 @@ private:
     }
 
     ExpectedPath& out_;
-    const std::string& file_;
-    base::Diagnostics& report_;
     ExpectedProcess process_;
     bool process_changed_ = true;
     bool opens_ = true;
@@ -168,9 +170,19 @@ double ExpectedArc::fractionOf(const reader::Vector3& point) const {
     return angle / sweep_rad;
 }
 
-ExpectedPath expectedPath(const toolpath::ToolPath& path, base::Diagnostics& report) {
+double ExpectedArc::length() const {
+    return std::hypot((reader::norm(start_mm - center_mm) + end_radius_mm) / 2.0 * sweep_rad, height_mm);
+}
+
+double ExpectedArc::bend() const {
+    const double start_radius_mm = reader::norm(start_mm - center_mm);
+    return std::max(start_radius_mm, end_radius_mm) * sweep_rad * sweep_rad +
+           2.0 * std::abs(end_radius_mm - start_radius_mm) * sweep_rad;
+}
+
+ExpectedPath expectedPath(const toolpath::ToolPath& path) {
     ExpectedPath out;
-    Walk walk(out, path.file_name, report);
+    Walk walk(out);
     for (const toolpath::ClRecord& record : path.records) {
         walk.line = record.line;
         std::visit(walk, record.statement);

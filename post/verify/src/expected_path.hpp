@@ -19,6 +19,7 @@ struct ExpectedProcess {
     std::optional<toolpath::SpindleCommand::Turn> turn;
     std::optional<double> rpm;  ///< absent when the CL file gives none, or a cutting speed
     std::optional<toolpath::CoolantCommand::Kind> coolant;
+    toolpath::CutterCompensation::Side compensation = toolpath::CutterCompensation::Side::Off;
     std::optional<std::int64_t> tool_number;
     std::string tool_name;
 };
@@ -35,15 +36,19 @@ struct ExpectedArc {
     [[nodiscard]] reader::Vector3 at(double fraction) const;
     /// Of the nearest point of the arc.
     [[nodiscard]] double fractionOf(const reader::Vector3& point) const;
+    [[nodiscard]] double length() const;
+    /// A bound on the second derivative of `at`, mm.
+    [[nodiscard]] double bend() const;
 };
 
 /// What a drilling cycle of the CL file asks of the way to the bottom of each hole.
 struct ExpectedCycle {
-    double approach_mm = 0.0;               ///< from where the feed begins down to the location
-    double depth_mm = 0.0;                  ///< from the location to the bottom
-    std::optional<double> largest_peck_mm;  ///< absent: in one go
-    std::optional<double> dwell_s;          ///< at the bottom
-    bool reverses = false;                  ///< a tap: the spindle turns back on the way out
+    double approach_mm = 0.0;                ///< from where the feed begins down to the location
+    double depth_mm = 0.0;                   ///< from the location to the bottom
+    std::optional<double> smallest_peck_mm;  ///< the last one may be smaller; absent: in one go
+    std::optional<double> largest_peck_mm;
+    bool comes_out = false;         ///< of the hole after each peck
+    std::optional<double> dwell_s;  ///< at the bottom
 };
 
 inline constexpr std::uint32_t none = 0xFFFFFFFF;
@@ -67,7 +72,6 @@ struct ExpectedPath {
     std::vector<ExpectedCycle> cycles;
 };
 
-/// CUTCOM, which leaves the path to the control, becomes the error `verify.unsupported` in `report`.
-[[nodiscard]] ExpectedPath expectedPath(const toolpath::ToolPath& path, base::Diagnostics& report);
+[[nodiscard]] ExpectedPath expectedPath(const toolpath::ToolPath& path);
 
 }  // namespace cusp::post::verify

@@ -14,6 +14,7 @@ namespace {
 using base::Severity;
 using reader::Feed;
 using reader::ModalSnapshot;
+using reader::RadiusCompensation;
 using reader::SpindleTurn;
 using toolpath::CoolantCommand;
 using toolpath::FeedRate;
@@ -133,6 +134,35 @@ std::string coolantProblem(const ModalSnapshot& state, const ExpectedProcess& ex
     return fmt::format("coolant is {}, the CL file has it {}", coolantName(state.mist, state.flood), wanted);
 }
 
+/// An edge the program never chose is the first: the one a tool change sets (MD20270 as delivered).
+std::string lengthProblem(const ModalSnapshot& state, int wanted) {
+    const int edge = state.cutting_edge.value_or(1);
+    if (edge == wanted) return {};
+    if (edge == 0) return "the tool length is not applied (D0) in a feed move";
+    return fmt::format("the tool is applied with D{}, expected is D{}", edge, wanted);
+}
+
+std::string planeProblem(const ModalSnapshot& state, std::string_view wanted) {
+    if (wanted.empty() || state.plane == wanted) return {};
+    return fmt::format(
+        "a feed move in {}: unless the machine fixes the direction of the tool length (SD42940), it acts across the spindle",
+        state.plane);
+}
+
+std::string compensationName(RadiusCompensation side) {
+    return side == RadiusCompensation::Off ? "off" : side == RadiusCompensation::Left ? "left (G41)" : "right (G42)";
+}
+
+std::string compensationProblem(const ModalSnapshot& state, const ExpectedProcess& expected) {
+    using Side = toolpath::CutterCompensation::Side;
+    const RadiusCompensation wanted = expected.compensation == Side::Left    ? RadiusCompensation::Left
+                                      : expected.compensation == Side::Right ? RadiusCompensation::Right
+                                                                             : RadiusCompensation::Off;
+    if (state.compensation == wanted) return {};
+    return fmt::format("cutter compensation is {}, the CL file has it {}", compensationName(state.compensation),
+                       compensationName(wanted));
+}
+
 std::string offsetProblem(const ModalSnapshot& state, const std::string& wanted) {
     if (wanted.empty() || state.work_offset == wanted || (wanted == "G500" && state.work_offset.empty())) return {};
     return fmt::format("runs in {}, the machine file's work offset is {}",
@@ -155,8 +185,14 @@ void checkProcess(const reader::ExecutedMotion& motion, const ExpectedProcess& e
     report(Severity::Error, "verify.spindle-direction", turnProblem(state, expected));
     report(Severity::Error, "verify.spindle-speed", speedProblem(state, expected, limits.speed_tolerance_rpm));
     report(Severity::Error, "verify.tool", toolProblem(state, expected));
-    report(Severity::Error, "verify.tool-length",
-           state.cutting_edge == 0 ? "the tool length is not applied (D0) in a feed move" : std::string());
+    report(Severity::Error, "verify.tool-length", lengthProblem(state, limits.cutting_edge));
+    report(Severity::Error, "verify.plane", planeProblem(state, limits.plane));
+    report(Severity::Error, "verify.compensation", compensationProblem(state, expected));
+    report(
+        Severity::Warning, "verify.contour",
+        state.compensation == RadiusCompensation::Off
+            ? std::string()
+            : "under G41 and G42 it is the programmed contour that is compared; the tool's own path is the control's");
     report(Severity::Error, "verify.coolant", coolantProblem(state, expected));
     report(Severity::Error, "verify.work-offset", offsetProblem(state, limits.work_offset));
 }

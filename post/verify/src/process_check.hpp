@@ -6,11 +6,16 @@
 #include "expected_path.hpp"
 #include "findings.hpp"
 
+#include <string>
+#include <string_view>
+
 namespace cusp::post::verify {
 
 struct ProcessLimits {
     double feed_tolerance = 0.0;
     double speed_tolerance_rpm = 0.0;
+    int cutting_edge = 1;
+    std::string_view plane;   ///< perpendicular to the spindle; empty: not checked
     std::string work_offset;  ///< empty: not checked
 };
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct Feed {
 
 enum class SpindleTurn : std::uint8_t { Off, Clockwise, CounterClockwise };
 
+/// G40, G41, G42: the side of the programmed contour the control keeps the tool on.
+enum class RadiusCompensation : std::uint8_t { Off, Left, Right };
+
 /// The state a motion runs in.
 struct ModalSnapshot {
     Feed feed;
@@ -43,7 +47,11 @@ struct ModalSnapshot {
     std::optional<int> cutting_edge;  ///< D; absent until the program or a tool change sets it
     bool mist = false;                ///< M7
     bool flood = false;               ///< M8
-    std::string work_offset;          ///< "G54" …; empty until the program sets it
+    std::string_view plane = "G17";   ///< G18, G19
+    /// With it on, poses are those of the programmed contour: the tool's own path is off it by a radius the program does
+    /// not tell.
+    RadiusCompensation compensation = RadiusCompensation::Off;
+    std::string work_offset;  ///< "G54" …; empty until the program sets it
 };
 
 /// Values the program has determined; an absent one is known to the control only.

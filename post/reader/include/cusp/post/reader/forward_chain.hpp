@@ -45,6 +45,11 @@ public:
     /// that they are the tip while all rotary axes are at zero.
     [[nodiscard]] Vector3 tip(const Vector3& programmed_mm, const RotaryValues& rotary_rad) const;
 
+    /// A bound on the second derivative of `tip` by the fraction of a motion in which all axes run evenly from one
+    /// position to the other, mm: between samples 1/n apart the tip is at most an eighth of it by n² off their chords.
+    [[nodiscard]] double tipBend(const Vector3& from_mm, const RotaryValues& from_rad, const Vector3& to_mm,
+                                 const RotaryValues& to_rad) const;
+
     /// Whether some position of the rotary axes within their limits points the tool along `axis` (unit). Solved here
     /// by itself, for up to two rotary axes; nothing for more.
     [[nodiscard]] std::optional<bool> reaches(const Vector3& axis) const;
@@ -61,6 +66,8 @@ private:
         Vector3 point_mm;
         std::size_t linear = 0;
     };
+    /// How far each linear axis stands from zero.
+    [[nodiscard]] std::array<double, 3> linearValues(const Vector3& programmed_mm) const;
     [[nodiscard]] bool withinLimits(std::size_t joint, double angle_rad) const;
 
     std::vector<Joint> joints_;

@@ -13,6 +13,14 @@ namespace cusp::post::reader {
 /// `orientation_path` says, or on the great circle when rotary values are not known.
 [[nodiscard]] ToolPose poseAt(const ExecutedMotion& motion, const ForwardChain& chain, double fraction);
 
+/// Bounds on the second derivatives of `poseAt` by the fraction, mm and rad: a sampled way cannot leave the chords of its
+/// samples, 1/n apart, by more than an eighth of them by n².
+struct Bend {
+    double tip_mm = 0.0;
+    double axis_rad = 0.0;
+};
+[[nodiscard]] Bend bendOf(const ExecutedMotion& motion, const ForwardChain& chain);
+
 /// Largest travel of any rotary axis in the block, rad; 0 where values are not known.
 [[nodiscard]] double rotaryTravel(const ExecutedMotion& motion);
 

@@ -33,6 +33,10 @@ struct VerifyOptions {
     /// Feeds may differ by this part of themselves: what printing them costs.
     double feed_tolerance = 1e-3;
     double speed_tolerance_rpm = 0.51;
+    /// D of the cutting blocks.
+    int cutting_edge = 1;
+    /// The machine keeps the tool length along the spindle whatever the plane (SD42940): G18 and G19 are then no finding.
+    bool fixed_tool_length_axis = false;
     /// The cutting blocks must run in the work offset the machine file names.
     bool check_work_offset = true;
     /// From the gauge point to the tip, of every tool: places the tip where rotary axes are away from zero without TRAORI.
@@ -65,9 +69,13 @@ struct VerifyReport {
 
     Extreme max_tip_error_mm;    ///< at block ends, those out of tolerance included
     Extreme max_axis_error_rad;  ///< the same
-    /// Between block ends, sampled as the control interpolates, against a straight tip and an axis on the great circle.
+    /// Between block ends in cuts, sampled as the control interpolates, against a straight or circular tip and an axis on
+    /// the great circle. The largest departure is at most 0.05 µm and 0.0006° larger.
     Extreme max_tip_between_mm;
     Extreme max_axis_between_rad;
+    /// The same in rapids.
+    Extreme max_tip_between_rapid_mm;
+    Extreme max_axis_between_rapid_rad;
 
     std::size_t limit_violations = 0;    ///< blocks with a rotary axis beyond its limits, at their end or on the way
     bool rotary_limits_checked = true;   ///< false on machines whose rotary positions are not solved for here
