@@ -155,13 +155,9 @@ private:
         if (!swivelled_) return;
         const auto at = [&](std::size_t i) { return block.arguments[i].value_or(0.0); };
         const int order = static_cast<int>(at(3));
-        const int axes[3] = {order == 57 ? 0 : 2,
-                             order == 57   ? 1
-                             : order == 27 ? 1
-                                           : 0,
-                             order == 57   ? 2
-                             : order == 27 ? 0
-                                           : 1};
+        const std::array<int, 3> axes = order == 57   ? std::array{0, 1, 2}
+                                        : order == 27 ? std::array{2, 1, 0}
+                                                      : std::array{2, 0, 1};
         swivel_frame_.translate(mm_per_unit_ * Vector3d(at(4), at(5), at(6)));
         for (std::size_t i = 0; i < 3; ++i) swivel_frame_ = swivel_frame_ * turned(at(7 + i), axes[i]);
         swivel_frame_.translate(mm_per_unit_ * Vector3d(at(10), at(11), at(12)));
