@@ -5,6 +5,7 @@
 #include "console.hpp"
 #include "input.hpp"
 #include "machine_lookup.hpp"
+#include "setup_lookup.hpp"
 
 #include <cusp/base/json_report.hpp>
 #include <cusp/base/units.hpp>
@@ -37,6 +38,9 @@ struct Flags {
     std::optional<double> between_tip_tolerance_mm;
     std::optional<double> tool_length_mm;
     std::vector<double> wcs_origin_mm;
+    std::string setup;
+    int cutting_edge = 1;
+    bool fixed_tool_length_axis = false;
     bool strict = false;
     bool json = false;
 };
@@ -69,13 +73,19 @@ base::Json toJson(const Flags& flags, const VerifyReport& report) {
     out["max_axis_error_deg"] = report.max_axis_error_rad.value * deg;
     out["max_tip_between_mm"] = report.max_tip_between_mm.value;
     out["max_axis_between_deg"] = report.max_axis_between_rad.value * deg;
+    out["max_tip_between_rapid_mm"] = report.max_tip_between_rapid_mm.value;
+    out["max_axis_between_rapid_deg"] = report.max_axis_between_rapid_rad.value * deg;
     out["where"] = {{"max_tip_error", toJson(report.max_tip_error_mm, 1.0)},
                     {"max_axis_error", toJson(report.max_axis_error_rad, deg)},
                     {"max_tip_between", toJson(report.max_tip_between_mm, 1.0)},
-                    {"max_axis_between", toJson(report.max_axis_between_rad, deg)}};
+                    {"max_axis_between", toJson(report.max_axis_between_rad, deg)},
+                    {"max_tip_between_rapid", toJson(report.max_tip_between_rapid_mm, 1.0)},
+                    {"max_axis_between_rapid", toJson(report.max_axis_between_rapid_rad, deg)}};
     out["limit_violations"] = report.limit_violations;
     out["rotary_limits"] = report.rotary_limits_checked ? "checked" : "not checked";
-    out["linear_travel"] = report.linear_travel_checked ? "checked" : "not checked";
+    out["linear_travel"] = report.linear_travel_checked ? "checked"
+                           : report.travel_checked > 0  ? "partly checked"
+                                                        : "not checked";
     out["diagnostics"] = base::diagnosticsToJson(report.findings);
     return out;
 }
@@ -90,12 +100,21 @@ base::Result<std::optional<toolpath::ToolPath>> readAgainst(const Flags& flags) 
     return std::optional<toolpath::ToolPath>(*std::move(path));
 }
 
+base::Result<std::optional<machine::SetupDefinition>> readSetup(const Flags& flags) {
+    if (flags.setup.empty()) return std::optional<machine::SetupDefinition>();
+    auto setup = loadSetup(flags.setup);
+    if (!setup) return base::fail(std::move(setup).error());
+    return std::optional<machine::SetupDefinition>(*std::move(setup));
+}
+
 ExitCode runVerify(const Flags& flags) {
     auto machine = loadMachine(flags.machine);
     if (!machine) return failWith(machine.error());
     if (!flags.work_offset.empty()) machine->file.control.work_offset = flags.work_offset;
     const auto against = readAgainst(flags);
     if (!against) return failWith(against.error());
+    const auto setup = readSetup(flags);
+    if (!setup) return failWith(setup.error());
     auto program = TextInput::open(flags.program);
     if (!program) return failWith(program.error());
 
@@ -108,6 +127,9 @@ ExitCode runVerify(const Flags& flags) {
     options.axis_tolerance_rad = base::radFromDeg(flags.axis_tolerance_deg);
     if (flags.between_axis_tolerance_deg)
         options.between_axis_tolerance_rad = base::radFromDeg(*flags.between_axis_tolerance_deg);
+    if (*setup) options.setup = &**setup;
+    options.cutting_edge = flags.cutting_edge;
+    options.fixed_tool_length_axis = flags.fixed_tool_length_axis;
     options.strict = flags.strict;
     const auto report = post::verify::verifyProgram(program->stream(), program->name(), machine->file,
                                                     *against ? &**against : nullptr, options);
@@ -163,6 +185,14 @@ void addVerifyCommand(CLI::App& app, Action& action) {
             "--wcs-origin-mm", flags->wcs_origin_mm,
             "Origin of the work offset in machine coordinates, X Y Z: for such programs on machines with a rotary table.")
         ->expected(3);
+    verify->add_option("--setup", flags->setup,
+                       "Setup file: where the work offsets lie and how long the tools are; checks linear travel too.");
+    verify->add_option("--cutting-edge", flags->cutting_edge, "D the cuts must run with.")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 9999));
+    verify->add_flag(
+        "--fixed-tool-length-axis", flags->fixed_tool_length_axis,
+        "The tool length acts along the spindle in every plane (SD42940), so G18 and G19 may stand in cuts.");
     verify->add_flag("--strict", flags->strict, "Words whose meaning is the machine builder's are errors.");
     verify->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
     verify->callback([flags, &action] { action = [flags] { return runVerify(*flags); }; });

@@ -7,6 +7,7 @@
 #include <cusp/base/units.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace cusp::post::reader {
@@ -19,8 +20,9 @@ bool has(const BlockContent& content, int m_function) {
 
 }  // namespace
 
-Executor::Executor(const MachineFile& machine, const ForwardChain& chain, ProgramSink& sink, base::Diagnostics& report)
-    : machine_(machine), chain_(chain), sink_(sink), report_(report) {
+Executor::Executor(const MachineFile& machine, const ForwardChain& chain, const MachineSetup& setup, ProgramSink& sink,
+                   base::Diagnostics& report)
+    : machine_(machine), chain_(chain), setup_(setup), sink_(sink), report_(report) {
     active_[group::motion] = "G1";
     active_[group::plane] = "G17";
     active_[group::units] = "G710";
@@ -30,6 +32,7 @@ Executor::Executor(const MachineFile& machine, const ForwardChain& chain, Progra
     active_[group::orientation_path] = "ORIVECT";
     // Without rotary axes the tool axis is the spindle's, always.
     if (chain.rotaryCount() == 0) tool_axis_ = chain.toolAxis({});
+    place();
 }
 
 bool Executor::isActive(int group, std::string_view code) const {
@@ -42,6 +45,24 @@ void Executor::error(std::string_view code, std::string message) {
 
 double Executor::mmPerUnit() const {
     return isActive(group::units, "G70") || isActive(group::units, "G700") ? base::mm_per_inch : 1.0;
+}
+
+/// What the setup says of the tool and the work offset at hand. With D0 the length of the tool is not in the program's
+/// positions.
+void Executor::place() {
+    placement_ = {};
+    if (state_.cutting_edge != 0) placement_.tool_length_mm = setup_.tool_length_mm;
+    if (setup_.wcs_origin_mm)
+        placement_.origin_mm = {(*setup_.wcs_origin_mm)[0], (*setup_.wcs_origin_mm)[1], (*setup_.wcs_origin_mm)[2]};
+    if (setup_.definition == nullptr) return;
+    if (!placement_.origin_mm)
+        if (const auto* offset = setup_.definition->findOffset(state_.work_offset))
+            placement_.origin_mm = {offset->origin_mm[0], offset->origin_mm[1], offset->origin_mm[2]};
+    if (placement_.tool_length_mm || state_.cutting_edge == 0 || state_.tool.empty()) return;
+    const bool number = state_.tool.find_first_not_of("0123456789") == std::string::npos;
+    placement_.tool_length_mm = number
+                                    ? setup_.definition->toolLength(std::strtoll(state_.tool.c_str(), nullptr, 10), {})
+                                    : setup_.definition->toolLength(std::nullopt, state_.tool);
 }
 
 void Executor::forgetLinear() {
@@ -99,6 +120,7 @@ void Executor::applyCodes(const BlockContent& content) {
                                             : RadiusCompensation::Off);
         if (code.group == group::work_offset) {
             state_.work_offset = std::string(code.name);
+            place();
             forgetLinear();
         }
         // Another kind of feed needs a new F (PM12, G93, G94, G95).
@@ -150,6 +172,7 @@ void Executor::applyTool(const BlockContent& content) {
     if (has(content, 6)) {
         state_.tool = preselected_tool_;
         state_.cutting_edge = 1;  // MD20270 $MC_CUTTING_EDGE_DEFAULT, as Siemens delivers it
+        place();
         forgetLinear();
         // Every tool change stops the spindle and the coolant; what the machine builder switches on again is not relied on.
         state_.spindle = SpindleTurn::Off;
@@ -163,6 +186,7 @@ void Executor::applyTool(const BlockContent& content) {
     const int number = static_cast<int>(edge);
     if (state_.cutting_edge == number) return;
     state_.cutting_edge = number;
+    place();
     forgetLinear();
 }
 

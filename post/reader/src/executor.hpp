@@ -7,6 +7,7 @@
 #include "frame.hpp"
 
 #include <cusp/post/reader/executed_program.hpp>
+#include <cusp/post/reader/program_reader.hpp>
 
 #include <array>
 #include <optional>
@@ -17,7 +18,8 @@ namespace cusp::post::reader {
 
 class Executor {
 public:
-    Executor(const MachineFile& machine, const ForwardChain& chain, ProgramSink& sink, base::Diagnostics& report);
+    Executor(const MachineFile& machine, const ForwardChain& chain, const MachineSetup& setup, ProgramSink& sink,
+             base::Diagnostics& report);
 
     void run(const Block& block, const BlockContent& content, bool in_subprogram);
 
@@ -43,6 +45,7 @@ private:
     [[nodiscard]] bool applyVector(const BlockContent& content);
     [[nodiscard]] bool isIncremental(const AxisTarget& target) const;
     void placePath(ExecutedMotion& motion) const;
+    void place();
     void hand(ExecutedMotion& motion, const ModalSnapshot& state);
     void programFrame(const BlockContent& content);
     void changeFrames(const Frame& swivel, const Frame& programmed);
@@ -67,6 +70,7 @@ private:
 
     const MachineFile& machine_;
     const ForwardChain& chain_;
+    const MachineSetup& setup_;
     ProgramSink& sink_;
     base::Diagnostics& report_;
     const Block* block_ = nullptr;
@@ -74,6 +78,7 @@ private:
 
     std::array<std::string_view, group::count> active_{};
     ModalSnapshot state_;
+    Placement placement_;
     AxisPositions position_;
     std::optional<Vector3> tool_axis_;  ///< known from rotary values or as programmed
     std::string preselected_tool_;

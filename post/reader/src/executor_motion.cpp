@@ -66,6 +66,7 @@ void Executor::move(const BlockContent& content) {
 
 void Executor::hand(ExecutedMotion& motion, const ModalSnapshot& state) {
     motion.state = &state;
+    motion.placement = placement_;
     ++motions_;
     sink_.motion(motion);
 }
@@ -219,13 +220,13 @@ std::optional<ToolPose> Executor::pose(const AxisPositions& position) const {
     if (!at[0] || !at[1] || !at[2] || !tool_axis_) return std::nullopt;
     const Vector3 base = basePoint(position);
     if (transformation_ || swivelled_ || rotaryAtZero(position)) return ToolPose{base, *tool_axis_};
-    if (!chain_.placesTip()) return std::nullopt;
+    if (!chain_.placesTip(placement_)) return std::nullopt;
     RotaryValues values{};
     for (std::size_t i = 0; i < chain_.rotaryCount(); ++i) {
         if (!position.rotary_rad[i]) return std::nullopt;
         values[i] = *position.rotary_rad[i];
     }
-    return ToolPose{chain_.tip(base, values), chain_.toolAxis(values)};
+    return ToolPose{chain_.tip(base, values, placement_), chain_.toolAxis(values)};
 }
 
 }  // namespace cusp::post::reader

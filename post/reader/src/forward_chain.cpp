@@ -23,6 +23,16 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double limit_slack_rad = 1e-6;
 constexpr double reach_rad = 1e-6;
 constexpr double pole_rad = 1e-6;
+/// Volume that directions of unit length span; below it they lie in one plane.
+constexpr double flat = 1e-6;
+
+double determinant(const Vector3& a, const Vector3& b, const Vector3& c) { return dot(a, cross(b, c)); }
+
+/// The parts of `way` along three directions (Cramer's rule).
+std::array<double, 3> solved(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& way) {
+    const double whole = determinant(a, b, c);
+    return {determinant(way, b, c) / whole, determinant(a, way, c) / whole, determinant(a, b, way) / whole};
+}
 
 }  // namespace
 
@@ -43,65 +53,83 @@ Vector3 onGreatCircle(const Vector3& a, const Vector3& b, double fraction) {
     return rotated(a, (1.0 / sine) * normal, fraction * std::atan2(sine, dot(a, b)));
 }
 
-ForwardChain::ForwardChain(const machine::MachineDefinition& machine, const MachineSetup& setup)
-    : spindle_axis_(unit(machine.spindle.axis)) {
-    bool carried = false;  // a linear axis between a rotary one and the tool
+ForwardChain::ForwardChain(const machine::MachineDefinition& machine)
+    : spindle_axis_(unit(machine.spindle.axis)), gauge_point_mm_(toVector(machine.spindle.gauge_point_mm)) {
     for (const std::string& name : machine.chain) {
         if (const auto found = machine.rotary.find(name); found != machine.rotary.end()) {
             places_.push_back({joints_.size(), toVector(found->second.point_mm), 0});
             joints_.push_back({name, found->second, unit(found->second.direction)});
         }
         if (const auto found = machine.linear.find(name); found != machine.linear.end()) {
-            places_.push_back({std::nullopt, {}, linear_directions_.size()});
-            linear_directions_.push_back(unit(found->second.direction));
-            carried = carried || !joints_.empty();
+            places_.push_back({std::nullopt, {}, linear_.size()});
+            linear_.push_back({name, found->second, unit(found->second.direction)});
+            carried_ = carried_ || !joints_.empty();
         }
     }
-    if (!setup.tool_length_mm || linear_directions_.size() != 3 || (carried && !setup.wcs_origin_mm)) return;
-    tip_at_zero_mm_ = toVector(machine.spindle.gauge_point_mm) - *setup.tool_length_mm * spindle_axis_;
-    if (setup.wcs_origin_mm) origin_mm_ = toVector(*setup.wcs_origin_mm);
-    const auto& d = linear_directions_;
-    places_tip_ = std::abs(dot(d[0], cross(d[1], d[2]))) > 1e-6;
+    spans_ = linear_.size() == 3 &&
+             std::abs(determinant(linear_[0].direction, linear_[1].direction, linear_[2].direction)) > flat;
 }
 
-/// By Cramer's rule, from the definition of the programmed values.
-std::array<double, 3> ForwardChain::linearValues(const Vector3& programmed_mm) const {
-    const Vector3 way = programmed_mm + origin_mm_ - tip_at_zero_mm_;
-    const auto& d = linear_directions_;
-    const double whole = dot(d[0], cross(d[1], d[2]));
-    return {dot(way, cross(d[1], d[2])) / whole, dot(d[0], cross(way, d[2])) / whole,
-            dot(d[0], cross(d[1], way)) / whole};
+bool ForwardChain::placesTip(const Placement& placement) const {
+    return spans_ && placement.tool_length_mm && (placement.origin_mm || !carried_);
+}
+
+Vector3 ForwardChain::tipAtZero(const Placement& placement) const {
+    return gauge_point_mm_ - placement.tool_length_mm.value_or(0.0) * spindle_axis_;
+}
+
+/// From the definition of the programmed values.
+std::array<double, 3> ForwardChain::linearValues(const Vector3& programmed_mm, const Placement& placement) const {
+    const Vector3 way = programmed_mm + placement.origin_mm.value_or(Vector3{}) - tipAtZero(placement);
+    return solved(linear_[0].direction, linear_[1].direction, linear_[2].direction, way);
 }
 
 /// Joint by joint from the tool to the workpiece, each turning or moving everything behind it.
-Vector3 ForwardChain::tip(const Vector3& programmed_mm, const RotaryValues& rotary_rad) const {
-    const std::array<double, 3> values = linearValues(programmed_mm);
-    const auto& d = linear_directions_;
-    Vector3 point = tip_at_zero_mm_;
+Vector3 ForwardChain::tipOf(const std::array<double, 3>& linear_mm, const RotaryValues& rotary_rad,
+                            const Placement& placement) const {
+    Vector3 point = tipAtZero(placement);
     for (std::size_t i = places_.size(); i-- > 0;) {
         const Place& place = places_[i];
         if (place.rotary)
             point = place.point_mm +
                     rotated(point - place.point_mm, joints_[*place.rotary].direction, rotary_rad[*place.rotary]);
         else
-            point = point + values[place.linear] * d[place.linear];
+            point = point + linear_mm[place.linear] * linear_[place.linear].direction;
     }
-    return point - origin_mm_;
+    return point;
+}
+
+Vector3 ForwardChain::tip(const Vector3& programmed_mm, const RotaryValues& rotary_rad,
+                          const Placement& placement) const {
+    return tipOf(linearValues(programmed_mm, placement), rotary_rad, placement) -
+           placement.origin_mm.value_or(Vector3{});
+}
+
+/// With the rotary axes at rest the tip follows the linear ones in constant proportions.
+std::optional<std::array<double, 3>>
+ForwardChain::linearPositions(const Vector3& tip_mm, const RotaryValues& rotary_rad, const Placement& placement) const {
+    if (!spans_ || !placement.tool_length_mm || !placement.origin_mm) return std::nullopt;
+    const Vector3 at_zero = tipOf({}, rotary_rad, placement);
+    const Vector3 along0 = tipOf({1.0, 0.0, 0.0}, rotary_rad, placement) - at_zero;
+    const Vector3 along1 = tipOf({0.0, 1.0, 0.0}, rotary_rad, placement) - at_zero;
+    const Vector3 along2 = tipOf({0.0, 0.0, 1.0}, rotary_rad, placement) - at_zero;
+    if (std::abs(determinant(along0, along1, along2)) < flat) return std::nullopt;
+    return solved(along0, along1, along2, tip_mm + *placement.origin_mm - at_zero);
 }
 
 /// A point that moves with at most `speed` and `bend` (first and second derivative) stays within `speed` of where it was;
 /// y = c + R(ωt)(x − c) then has |y'| ≤ speed + ωr and |y''| ≤ bend + 2ω·speed + ω²r, r the largest distance from the axis.
 double ForwardChain::tipBend(const Vector3& from_mm, const RotaryValues& from_rad, const Vector3& to_mm,
-                             const RotaryValues& to_rad) const {
-    const std::array<double, 3> from = linearValues(from_mm);
-    const std::array<double, 3> to = linearValues(to_mm);
-    Vector3 point = tip_at_zero_mm_;
+                             const RotaryValues& to_rad, const Placement& placement) const {
+    const std::array<double, 3> from = linearValues(from_mm, placement);
+    const std::array<double, 3> to = linearValues(to_mm, placement);
+    Vector3 point = tipAtZero(placement);
     double speed = 0.0;
     double bend = 0.0;
     for (std::size_t i = places_.size(); i-- > 0;) {
         const Place& place = places_[i];
         if (!place.rotary) {
-            point = point + from[place.linear] * linear_directions_[place.linear];
+            point = point + from[place.linear] * linear_[place.linear].direction;
             speed += std::abs(to[place.linear] - from[place.linear]);
             continue;
         }
@@ -155,6 +183,12 @@ std::optional<bool> ForwardChain::reaches(const Vector3& axis) const {
     for (const double q1 : {middle - half, middle + half})
         if (withinLimits(1, q1) && firstFits(rotated(spindle_axis_, d1, q1))) return true;
     return false;
+}
+
+double ForwardChain::poleAngle(const Vector3& axis) const {
+    if (joints_.empty()) return std::numbers::pi;
+    const double angle = angleBetween(axis, joints_.front().direction);
+    return std::min(angle, std::numbers::pi - angle);
 }
 
 Vector3 ForwardChain::toolAxis(const RotaryValues& rotary_rad) const {

@@ -46,7 +46,7 @@ ToolPose poseAt(const ExecutedMotion& motion, const ForwardChain& chain, double 
     for (std::size_t i = 0; i < count; ++i)
         values[i] = (1.0 - fraction) * *motion.start.rotary_rad[i] + fraction * *motion.end.rotary_rad[i];
     pose.axis = chain.toolAxis(values);
-    if (motion.joint_linear) pose.tip_mm = chain.tip(on_path, values);
+    if (motion.joint_linear) pose.tip_mm = chain.tip(on_path, values, motion.placement);
     return pose;
 }
 
@@ -66,8 +66,8 @@ Bend bendOf(const ExecutedMotion& motion, const ForwardChain& chain) {
         for (std::size_t i = 0; i < count; ++i)
             turn += std::abs(*motion.end.rotary_rad[i] - *motion.start.rotary_rad[i]);
         if (motion.joint_linear)
-            bend.tip_mm +=
-                chain.tipBend(motion.path_start_mm, valuesOf(motion.start), motion.path_end_mm, valuesOf(motion.end));
+            bend.tip_mm += chain.tipBend(motion.path_start_mm, valuesOf(motion.start), motion.path_end_mm,
+                                         valuesOf(motion.end), motion.placement);
     }
     bend.axis_rad = turn * turn;
     return bend;

@@ -51,7 +51,7 @@ public:
           report_(report),
           source_(in, file_name, options.max_line_bytes),
           contents_(machine.machine, chain, options, report),
-          executor_(machine, chain, sink, report),
+          executor_(machine, chain, options.setup, sink, report),
           flow_(source_, contents_.variables(), report) {}
 
     ReadSummary all(const std::string& file_name) {
@@ -132,7 +132,7 @@ private:
 
 ReadSummary readProgram(std::istream& in, const std::string& file_name, const MachineFile& machine,
                         const ReaderOptions& options, ProgramSink& sink, base::Diagnostics& report) {
-    const ForwardChain chain(machine.machine, options.setup);
+    const ForwardChain chain(machine.machine);
     if (chain.rotaryCount() > max_rotary_axes) {
         report.error("nc.machine", fmt::format("the machine has more than {} rotary axes", max_rotary_axes),
                      {file_name, 0, 0, {}});

@@ -49,7 +49,7 @@ std::string distanceText(const PoseError& error, const Tolerance& tolerance, std
 
 Alignment::Alignment(const MachineFile& machine, const ExpectedPath* expected, const VerifyOptions& options,
                      const std::string& program_name, VerifyReport& report)
-    : chain_(machine.machine, {options.tool_length_mm, options.wcs_origin_mm}),
+    : chain_(machine.machine),
       expected_(expected),
       options_(options),
       tolerance_{options.tip_tolerance_mm, options.axis_tolerance_rad},
@@ -73,6 +73,7 @@ void Alignment::event(const reader::BlockPlace& place, const reader::ExecutedEve
 void Alignment::motion(const ExecutedMotion& motion) {
     checkLimits(motion);
     checkReach(motion);
+    if (options_.setup != nullptr) checkTravel(motion);
     if (expected_ != nullptr) {
         compare(motion);
         dwelt_s_.reset();
@@ -192,6 +193,7 @@ bool Alignment::onTheWay(const ExecutedMotion& motion) {
 /// changes within the pole cone, the tool axis does not keep its own.
 std::optional<double> Alignment::besideTheWay(const ExecutedMotion& motion) const {
     if (!motion.joint_linear || held_) return std::nullopt;
+    if (!isRapid(motion) && chain_.poleAngle(motion.end_pose->axis) > options_.pole_cone_rad) return std::nullopt;
     const double axis_rad = isRapid(motion) ? std::numbers::pi : options_.pole_cone_rad;
     return nextMove().fractionOf(*motion.end_pose, {tolerance_.tip_mm, axis_rad});
 }

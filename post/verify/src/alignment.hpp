@@ -51,6 +51,9 @@ private:
 
     void checkLimits(const reader::ExecutedMotion& motion);
     void checkReach(const reader::ExecutedMotion& motion);
+    void checkTravel(const reader::ExecutedMotion& motion);
+    void checkSuppressed(const reader::ExecutedMotion& motion);
+    bool checkPositions(const reader::ExecutedMotion& motion, const std::array<std::optional<double>, 3>& at_mm);
     void compare(const reader::ExecutedMotion& motion);
     void withoutPose(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool meetsNext(const reader::ExecutedMotion& motion);

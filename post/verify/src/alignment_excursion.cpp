@@ -60,13 +60,9 @@ bool Alignment::continuesExcursion(const ExecutedMotion& motion) {
 
 /// Whether the tip stays where it is all the way.
 bool Alignment::restsAt(const ExecutedMotion& motion, const Vector3& tip_mm) const {
-    constexpr double samples = 36.0;
-    for (double sample = 0.0; sample <= samples; sample += 1.0) {
-        const reader::ToolPose pose = reader::poseAt(motion, chain_, sample / samples);
-        if (reader::norm(pose.tip_mm - tip_mm) > std::max(tolerance_.tip_mm, options_.between_tip_tolerance_mm))
-            return false;
-    }
-    return true;
+    const ExpectedMove rest{{tip_mm, motion.start_pose->axis}, {tip_mm, motion.end_pose->axis}, nullptr};
+    return strayBetween(motion, chain_, rest, 0.0, 1.0).tip_mm <=
+           std::max(tolerance_.tip_mm, options_.between_tip_tolerance_mm);
 }
 
 void Alignment::abandonExcursion() {

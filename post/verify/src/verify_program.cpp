@@ -21,7 +21,7 @@ base::Result<VerifyReport> verifyProgram(std::istream& program, const std::strin
     Alignment alignment(machine, against != nullptr ? &expected : nullptr, options, program_name, report);
     reader::ReaderOptions reader_options;
     reader_options.strict = options.strict;
-    reader_options.setup = {options.tool_length_mm, options.wcs_origin_mm};
+    reader_options.setup = {options.tool_length_mm, options.wcs_origin_mm, options.setup};
     base::Diagnostics read;
     const reader::ReadSummary summary =
         reader::readProgram(program, program_name, machine, reader_options, alignment, read);
@@ -29,6 +29,7 @@ base::Result<VerifyReport> verifyProgram(std::istream& program, const std::strin
     alignment.finish();
     report.blocks = summary.blocks;
     report.motions = summary.motions;
+    report.linear_travel_checked = report.travel_checked > 0 && report.travel_unchecked == 0;
     report.findings.append(read);
     report.pass = !report.findings.hasErrors();
     return report;
@@ -63,15 +64,23 @@ std::string toText(const VerifyReport& report) {
         if (report.excursions > 0)
             text += fmt::format("{:<22}{}, off the part and back to the same place\n", "excursions", report.excursions);
         text += errorLine("at block ends", report.max_tip_error_mm, report.max_axis_error_rad);
-        text += errorLine("between block ends", report.max_tip_between_mm, report.max_axis_between_rad);
+        text += errorLine("between, in cuts", report.max_tip_between_mm, report.max_axis_between_rad);
+        text += errorLine("between, in rapids", report.max_tip_between_rapid_mm, report.max_axis_between_rapid_rad);
     }
     text += fmt::format("{:<22}{}\n", "rotary limits",
-                        report.limit_violations > 0 ? fmt::format("{} violations", report.limit_violations)
+                        report.limit_violations > report.travel_violations
+                            ? fmt::format("{} violations", report.limit_violations - report.travel_violations)
                         : report.rotary_limits_checked
                             ? std::string("kept")
                             : std::string("kept where rotary values are programmed, else not checked"));
-    text +=
-        fmt::format("{:<22}{}\n", "linear travel", report.linear_travel_checked ? "kept" : "not checked (no setup)");
+    text += fmt::format(
+        "{:<22}{}\n", "linear travel",
+        report.travel_checked == 0 ? std::string("not checked (no setup)")
+        : report.travel_violations > 0
+            ? fmt::format("{} violations", report.travel_violations)
+            : fmt::format("kept{}", report.linear_travel_checked
+                                        ? std::string()
+                                        : fmt::format(", but {} motions not checked", report.travel_unchecked)));
     return text + fmt::format("{:<22}{}\n", "result", report.pass ? "pass" : "FAIL");
 }
 

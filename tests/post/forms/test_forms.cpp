@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace cusp::post::test {
 namespace {
 
@@ -44,7 +46,8 @@ protected:
         EXPECT_LE(report.max_tip_between_mm.value, options.chord_tolerance_mm);
         // What the post says it proved holds for what the witness sampled.
         if (options.form == ProgramForm::Machine) {
-            EXPECT_LE(report.max_tip_between_mm.value, posted.summary.largest_chord_error_mm + 1e-9);
+            // Beside it stand the ends of straight blocks, as they are printed.
+            EXPECT_LE(report.max_tip_between_mm.value, std::max(posted.summary.largest_chord_error_mm, 1e-5) + 1e-9);
         }
     }
 };

@@ -51,6 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
                     CycleCase{"CYCLE84(10,0,2,-20,,,3,6,,,500,500)", "r2 f-20 f2 r10"},
                     CycleCase{"CYCLE840(10,0,2,-20,,,4,3,0,,1.5)", "r2 f-20 f2 r10"},
                     CycleCase{"CYCLE85(10,0,2,-20,,,80,200)", "r2 f-20 f2 r10"},
+                    CycleCase{"CYCLE86(10,0,2,-20,,0.5,3,0,0,0,0)", "r2 f-20 r2 r10"},
+                    CycleCase{"CYCLE86(10,0,2,-20,,,4,-1,2,0.5,0)", "r2 f-20 r-19.5 r2 r2 r10"},
                     CycleCase{"MCALL CYCLE81(10,0,2,-20)\nX10\nX20 Y5\nMCALL\nX30", "r2 f-20 r10 r2 f-20 r10"}));
 
 TEST(Cycles, FeedsSpindleAndDwell) {
@@ -69,6 +71,25 @@ TEST(Cycles, FeedsSpindleAndDwell) {
     for (const auto& [place, event] : out.events)
         if (const auto* dwell = std::get_if<DwellTime>(&event)) dwelt = dwell->seconds == 0.5;
     EXPECT_TRUE(dwelt);
+}
+
+TEST(Cycles, BoringStepsAsideWithTheSpindleAtRest) {
+    const Recording out = drill("CYCLE86(10,0,2,-20,,,4,-1,2,0.5,0)");
+    ASSERT_EQ(out.problems, "");
+    ASSERT_EQ(out.motions.size(), 7U);
+    EXPECT_EQ(out.motions[2].state.spindle, SpindleTurn::CounterClockwise);
+    EXPECT_NEAR(norm(out.motions[3].motion.end_pose->tip_mm - Vector3{-1, 2, -19.5}), 0.0, 1e-12);
+    EXPECT_EQ(out.motions[3].state.spindle, SpindleTurn::Off);
+    EXPECT_NEAR(norm(out.motions[6].motion.end_pose->tip_mm - Vector3{0, 0, 10}), 0.0, 1e-12);
+    EXPECT_EQ(out.motions[6].state.spindle, SpindleTurn::CounterClockwise);
+}
+
+TEST(Cycles, ATapTurnsTheSpindleByTheSignOfItsPitch) {
+    const Recording out = drill("M5\nCYCLE84(10,0,2,-20,,,5,,-1,,500,500)");
+    ASSERT_EQ(out.problems, "");
+    EXPECT_EQ(out.motions[2].state.spindle, SpindleTurn::CounterClockwise);
+    EXPECT_EQ(out.motions[3].state.spindle, SpindleTurn::Clockwise);
+    EXPECT_EQ(out.motions[4].state.spindle, SpindleTurn::Off);
 }
 
 TEST(Cycles, InASwivelledPlane) {

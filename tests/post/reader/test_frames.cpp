@@ -183,8 +183,7 @@ TEST(MachineCoordinates, BetweenEndsTheTipLeavesItsLine) {
     ASSERT_EQ(out.problems, "");
     const ExecutedMotion& motion = out.motions.back().motion;
     EXPECT_TRUE(motion.joint_linear);
-    ReaderOptions options = withLength(tool_mm);
-    const ForwardChain chain(machine.machine, options.setup);
+    const ForwardChain chain(machine.machine);
     EXPECT_NEAR(norm(poseAt(motion, chain, 1.0).tip_mm), 0.0, 1e-7);
     EXPECT_NEAR(norm(poseAt(motion, chain, 0.5).tip_mm), 0.01523, 1e-4);
 }

@@ -100,6 +100,7 @@ struct ExecutedMotion {
     Vector3 path_start_mm;
     Vector3 path_end_mm;
     bool joint_linear = false;
+    Placement placement;    ///< of the tool and the work offset, as far as they are known
     bool in_cycle = false;  ///< made by a drilling cycle
     std::optional<Arc> arc;
     /// Valid during the call only.

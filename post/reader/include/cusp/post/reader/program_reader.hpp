@@ -4,14 +4,25 @@
 #pragma once
 
 #include <cusp/base/diagnostics.hpp>
+#include <cusp/machine/setup_definition.hpp>
 #include <cusp/post/control/control_definition.hpp>
 #include <cusp/post/reader/executed_program.hpp>
 
+#include <array>
 #include <cstddef>
 #include <istream>
+#include <optional>
 #include <string>
 
 namespace cusp::post::reader {
+
+/// The shop's knowledge, from figures that hold throughout or from a setup file; the figures go before it.
+struct MachineSetup {
+    std::optional<double> tool_length_mm;
+    std::optional<std::array<double, 3>> wcs_origin_mm;
+    /// Looked up by the tool and the work offset at hand. Must outlive the read.
+    const machine::SetupDefinition* definition = nullptr;
+};
 
 struct ReaderOptions {
     /// M and H functions whose meaning belongs to the machine builder are errors instead of warnings.

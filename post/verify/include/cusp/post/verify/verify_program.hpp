@@ -6,6 +6,7 @@
 #include <cusp/base/diagnostics.hpp>
 #include <cusp/base/result.hpp>
 #include <cusp/base/units.hpp>
+#include <cusp/machine/setup_definition.hpp>
 #include <cusp/post/control/control_definition.hpp>
 #include <cusp/toolpath/cl_reader.hpp>
 
@@ -44,6 +45,8 @@ struct VerifyOptions {
     /// Origin of the work offset in the machine frame, all axes at zero: needed as well where a rotary axis carries the
     /// workpiece.
     std::optional<std::array<double, 3>> wcs_origin_mm;
+    /// Tool lengths and origins from a setup file, where the two above do not say: with it, linear travel is checked.
+    const machine::SetupDefinition* setup = nullptr;
     /// Warnings of the reader (M functions of the machine builder) are errors.
     bool strict = false;
 };
@@ -64,8 +67,9 @@ struct VerifyReport {
     std::size_t motions = 0;       ///< blocks that move
     std::size_t intermediate = 0;  ///< block ends on the way from one CL point to the next
     std::size_t links = 0;         ///< rapids outside operations: home, tool change, approach
-    std::size_t excursions = 0;    ///< times the tool leaves a cut along its axis, turns, and comes back to the same place
-    std::size_t extra = 0;         ///< motions that lead nowhere in the CL file
+    std::size_t excursions =
+        0;                  ///< times the tool leaves a cut along its axis, turns, and comes back to the same place
+    std::size_t extra = 0;  ///< motions that lead nowhere in the CL file
 
     Extreme max_tip_error_mm;    ///< at block ends, those out of tolerance included
     Extreme max_axis_error_rad;  ///< the same
@@ -77,9 +81,12 @@ struct VerifyReport {
     Extreme max_tip_between_rapid_mm;
     Extreme max_axis_between_rapid_rad;
 
-    std::size_t limit_violations = 0;    ///< blocks with a rotary axis beyond its limits, at their end or on the way
+    std::size_t limit_violations = 0;    ///< blocks with an axis beyond its limits, at their end or on the way
+    std::size_t travel_violations = 0;   ///< those of them with a linear axis
+    std::size_t travel_checked = 0;      ///< motions whose linear axes were followed
+    std::size_t travel_unchecked = 0;    ///< others that were placed in the work offset
     bool rotary_limits_checked = true;   ///< false on machines whose rotary positions are not solved for here
-    bool linear_travel_checked = false;  ///< needs to know where the workpiece stands
+    bool linear_travel_checked = false;  ///< of every such motion; needs to know where the workpiece stands
     bool compared = false;               ///< false without a CL file: only the program itself was looked at
 
     /// Everything found, in the words of the shop floor; warnings of the reader included.
