@@ -16,6 +16,7 @@ namespace cusp::cli {
 /// Set by the subcommand the user named.
 using Action = std::function<ExitCode()>;
 
+void addEvaluateCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);

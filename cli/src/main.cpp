@@ -24,6 +24,7 @@ ExitCode run(int argc, char** argv) {
     cusp::cli::Action action;
     addPostCommand(app, action);
     addVerifyCommand(app, action);
+    addEvaluateCommand(app, action);
     addTextureCommand(app, action);
     addMachineCommand(app, action);
     addSchemaCommand(app, action);
