@@ -3,6 +3,7 @@
 // `cusp post`: a CL file becomes a Sinumerik 840D program, or nothing is written and the reason is told.
 #include "command.hpp"
 #include "console.hpp"
+#include "cycle_time.hpp"
 #include "input.hpp"
 #include "job_file.hpp"
 #include "machine_lookup.hpp"
@@ -33,6 +34,9 @@ namespace {
 /// How often the progress bar is asked to look.
 constexpr std::uint64_t records_per_look = 4096;
 
+/// Without being asked cycle time is estimated up to here: some seconds.
+constexpr std::size_t moves_estimated = 50'000;
+
 struct Flags {
     std::string cl_file;
     std::string machine;
@@ -54,6 +58,8 @@ struct Flags {
     std::optional<double> retract_feed_mm_per_min;
     std::optional<double> engage_feed_mm_per_min;
     std::optional<double> chord_tolerance_mm;
+    bool cycle_time = false;
+    bool no_cycle_time = false;
     bool strict = false;
     bool json = false;
     bool print_config = false;
@@ -152,6 +158,16 @@ void tellTravel(post::TravelCheck& travel, PostOutcome& outcome) {
     outcome.travel = travel.summary();
 }
 
+CycleTimeOptions cycleTimeOptions(const Flags& flags, const post::PostOptions& options, const LoadedMachine& machine,
+                                  const Setup& setup) {
+    CycleTimeOptions out;
+    if (setup) out.setup = &*setup;
+    out.work_offset = workOffsetOf(options, machine);
+    if (options.tool_length_mm) out.tool_length_mm = *options.tool_length_mm;
+    if (!flags.cycle_time) out.most_moves = moves_estimated;
+    return out;
+}
+
 /// Keeps the first failure of a write until the end: the writer's steps have no way to answer.
 class ProgramFile {
 public:
@@ -207,7 +223,11 @@ ExitCode runPost(const Flags& flags) {
                                  headOf(flags, *options, *machine, *setup));
     std::optional<post::TravelCheck> travel;
     if (*setup) travel.emplace(machine->model, **setup, workOffsetOf(*options, *machine), flags.cl_file, writer);
-    post::NcSink& steps = travel ? static_cast<post::NcSink&>(*travel) : writer;
+    post::NcSink& checked = travel ? static_cast<post::NcSink&>(*travel) : writer;
+    std::optional<CycleTimeEstimate> time;
+    if (!flags.no_cycle_time)
+        time.emplace(machine->file, machine->model, cycleTimeOptions(flags, *options, *machine, *setup), checked);
+    post::NcSink& steps = time ? static_cast<post::NcSink&>(*time) : checked;
     post::ProgramPlanner planner(machine->file, machine->model, *options, flags.cl_file, steps, planning);
     ProgressBar bar("posting");
     std::uint64_t records = 0;
@@ -221,6 +241,10 @@ ExitCode runPost(const Flags& flags) {
     outcome.report.append(input->reader().report());
     outcome.report.append(planning);
     if (travel) tellTravel(*travel, outcome);
+    if (time && !outcome.report.hasErrors()) {
+        outcome.cycle_time = time->finish();
+        outcome.too_long_to_estimate = time->tooManyMoves();
+    }
     outcome.dialect = toolpath::dialectName(input->reader().dialect());
     outcome.mm_per_unit = input->reader().mmPerUnit();
     return finish(flags, outcome, file);
@@ -283,6 +307,10 @@ void addPostCommand(CLI::App& app, Action& action) {
         "--tolerance,--chord-tolerance-mm", flags->chord_tolerance_mm,
         "How far the tip may be from its way between block ends, in mm (0.005): on straight moves that stand "
         "for an arc, and without TRAORI on every move.");
+    CLI::Option* cycle_time =
+        post->add_flag("--cycle-time", flags->cycle_time,
+                       "Estimates how long the program runs; left out, only where it has up to 50000 moves.");
+    post->add_flag("--no-cycle-time", flags->no_cycle_time, "Estimates no cycle time.")->excludes(cycle_time);
     post->add_flag("--strict", flags->strict,
                    "Statements that are not understood, and cuts with the spindle off, are errors.");
     CLI::Option* json = post->add_flag("--json", flags->json, "One machine-readable summary on stdout.");

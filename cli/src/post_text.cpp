@@ -66,6 +66,21 @@ std::string travelText(const PostOutcome& outcome) {
     return out;
 }
 
+/// "1 h 02 min 07 s"
+std::string durationText(double seconds) {
+    if (seconds < 60.0) return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<long long>(std::llround(seconds));
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02} min {:02} s", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string cycleTimeText(const PostOutcome& outcome) {
+    if (outcome.too_long_to_estimate) return "  cycle time not estimated: a long program; --cycle-time does it\n";
+    if (!outcome.cycle_time) return {};
+    return fmt::format("  cycle time about {}, tool changes not counted{}\n", durationText(outcome.cycle_time->total()),
+                       outcome.cycle_time->from_setup ? "" : "; tool length and place of the workpiece assumed");
+}
+
 bool isLimit(const base::Diagnostic& diagnostic) {
     return diagnostic.code == "kinematics.axis-limit" || diagnostic.code == "kinematics.axis-unreachable" ||
            diagnostic.code == "kinematics.between-axis" || diagnostic.code == "kinematics.rewind" ||
@@ -95,6 +110,7 @@ std::string toText(const PostOutcome& outcome) {
     }
     out += rotaryText(outcome);
     out += travelText(outcome);
+    out += cycleTimeText(outcome);
     if (outcome.report.warningCount() > 0)
         out += "  " + plural(outcome.report.warningCount(), "warning") + ", see above\n";
     return out + fmt::format("  {} → {}\n", plural(outcome.blocks, "block"), outcome.output);
@@ -126,6 +142,10 @@ base::Json toJson(const PostOutcome& outcome) {
     for (std::size_t i = 0; i < outcome.machine.model.rotaryCount(); ++i)
         out["rotary_range_deg"][outcome.machine.model.rotaryNames()[i]] = {
             base::degFromRad(summary.rotary_range_rad[i].first), base::degFromRad(summary.rotary_range_rad[i].second)};
+    const auto& time = outcome.cycle_time;
+    out["cycle_time_s"] = time ? base::Json(time->total()) : base::Json();
+    out["cycle_time_dwell_s"] = time ? base::Json(time->dwell_s) : base::Json();
+    out["cycle_time_basis"] = time ? base::Json(time->from_setup ? "setup" : "assumed") : base::Json();
     out["linear_travel"] = outcome.travel ? "checked" : "not checked";
     out["linear_range_mm"] = base::Json::object();
     for (std::size_t i = 0; outcome.travel && outcome.travel->moves > 0 && i < 3; ++i)

@@ -3,6 +3,7 @@
 // What `cusp post` tells: a page for people, JSON for scripts.
 #pragma once
 
+#include "cycle_time.hpp"
 #include "machine_lookup.hpp"
 
 #include <cusp/base/diagnostics.hpp>
@@ -23,6 +24,8 @@ struct PostOutcome {
     base::Diagnostics report = base::Diagnostics();
     post::PostSummary summary = {};
     std::optional<kinematics::TravelSummary> travel = {};  ///< with a setup only
+    std::optional<CycleTime> cycle_time = {};              ///< where it was estimated
+    bool too_long_to_estimate = false;
     std::size_t blocks = 0;
     std::string dialect = {};
     double mm_per_unit = 1.0;

@@ -59,6 +59,36 @@ TEST_F(PostCommand, JsonHasTheDocumentedKeys) {
     EXPECT_EQ(json["blocks"], blocks - comments);
 }
 
+/// One straight cut of so many millimetres at 600 mm/min.
+std::string straightCut(double length_mm) {
+    return "TOOL PATH/OP1,TOOL,MILL\nMSYS/0,0,0,1,0,0,0,1,0\nSPINDL/RPM,1000,CLW\nRAPID\nGOTO/0,0,50\n"
+           "FEDRAT/MMPM,600\nGOTO/0,0,0\nGOTO/" +
+           std::to_string(length_mm) + ",0,0\nRAPID\nGOTO/" + std::to_string(length_mm) + ",0,50\nEND-OF-PATH\n";
+}
+
+TEST_F(PostCommand, CycleTimeGrowsByLengthOverFeed) {
+    const auto secondsOf = [&](double length_mm) {
+        const std::string cl = write("part.cls", straightCut(length_mm));
+        const auto outcome = run({"post", cl, "-m", "three-axis", "-o", path("PART.MPF"), "--json"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+        const auto json = nlohmann::json::parse(outcome.output);
+        EXPECT_EQ(json["cycle_time_basis"], "assumed");
+        EXPECT_EQ(json["cycle_time_dwell_s"], 0.0);
+        return json["cycle_time_s"].get<double>();
+    };
+    // Ten seconds for the cut; the rest is 100 mm of the way home at rapid speed.
+    const double longer = secondsOf(200.0) - secondsOf(100.0);
+    EXPECT_GT(longer, 10.0);
+    EXPECT_LT(longer, 10.5);
+}
+
+TEST_F(PostCommand, NoCycleTimeIsNull) {
+    const std::string cl = write("part.cls", small_cl);
+    const auto outcome =
+        run({"post", cl, "-m", "fooke-endura-ca", "-o", path("PART.MPF"), "--json", "--no-cycle-time"});
+    EXPECT_TRUE(nlohmann::json::parse(outcome.output)["cycle_time_s"].is_null());
+}
+
 TEST_F(PostCommand, ABrokenClFileLeavesNothingBehind) {
     const std::string cl = write("part.cls", std::string(small_cl) + "CIRCLE/0,0,0,0,0,1,5\nGOTO/1.0,x,3.0\n");
     const auto outcome = run({"post", cl, "-m", "fooke-endura-ca", "-o", path("PART.MPF")});
