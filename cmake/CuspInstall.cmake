@@ -8,6 +8,7 @@ set(packages
   "tl::expected=tl-expected"
   "fmt::fmt=fmt"
   "Ceres::ceres=Ceres"
+  "EXPAT::EXPAT=EXPAT"
   "tomlplusplus::tomlplusplus=tomlplusplus"
   "Eigen3::Eigen=Eigen3 3.4"
   "nlohmann_json::nlohmann_json=nlohmann_json"
