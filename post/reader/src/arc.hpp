@@ -18,8 +18,14 @@ struct ArcRequest {
     Vector3 end_mm;
     std::string_view plane;  ///< G17, G18, G19
     bool clockwise = false;
+    bool through = false;      ///< CIP
+    bool incremental = false;  ///< G91, for the intermediate point of CIP
     double mm_per_unit = 1.0;
 };
+
+/// For AR with a centre and no end point in the plane: where the arc ends; nothing, and no problem, in other cases.
+[[nodiscard]] std::optional<Vector3> endByAngle(const BlockContent& content, const ArcRequest& request,
+                                                std::string& problem);
 
 /// In the coordinates of the program. Nothing, with the reason in `problem`, when no arc fits.
 [[nodiscard]] std::optional<Arc> makeArc(const BlockContent& content, const ArcRequest& request, std::string& problem);

@@ -145,6 +145,7 @@ void ContentReader::call(const Word& word) {
         return;
     }
     if (word.name == "CYCLE832") return highSpeed(word);
+    if (hasNoEffect(word.name)) return;
     if (word.name == "CYCLE800") return swivel(word);
     if (isDrillingCycle(word.name)) return drillingCycle(word);
     if (word.name == "SETMS" || word.name == "TRAORI") {
@@ -259,8 +260,13 @@ bool ContentReader::extendedValue(const Word& word) {
         if (const auto result = number(word)) variables_.setParameter(*extension, *result);
         return true;
     }
-    if (*extension == 3 && (letter == 'A' || letter == 'B' || letter == 'C')) {
-        setNumber(out_.vector[axisIndex(word.name, "ABC")], word);
+    if ((*extension == 3 || *extension == 2) && (letter == 'A' || letter == 'B' || letter == 'C')) {
+        auto& values = *extension == 3 ? out_.vector : out_.angles_deg;
+        setNumber(values[axisIndex(word.name, "ABC")], word);
+        return true;
+    }
+    if (*extension == 1 && (letter == 'I' || letter == 'J' || letter == 'K')) {
+        setTarget(out_.through[axisIndex(word.name, "IJK")], word);
         return true;
     }
     if (letter != 'M' && letter != 'S') return false;
@@ -278,6 +284,8 @@ bool ContentReader::extendedValue(const Word& word) {
 bool ContentReader::namedValue(const Word& word) {
     if (word.name == "CR")
         setNumber(out_.radius, word);
+    else if (word.name == "AR")
+        setNumber(out_.arc_angle_deg, word);
     else if (word.name == "TURN")
         setNumber(out_.turns, word);
     else if (word.name == "RPL")

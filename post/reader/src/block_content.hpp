@@ -46,10 +46,13 @@ struct CycleCall {
 struct BlockContent {
     std::array<std::optional<AxisTarget>, 3> linear;
     std::array<std::optional<AxisTarget>, max_rotary_axes> rotary;
-    std::array<std::optional<double>, 3> vector;      ///< A3, B3, C3
-    std::array<std::optional<AxisTarget>, 3> center;  ///< I, J, K
-    std::optional<double> radius;                     ///< CR
-    std::optional<double> turns;                      ///< TURN
+    std::array<std::optional<double>, 3> vector;       ///< A3, B3, C3
+    std::array<std::optional<double>, 3> angles_deg;   ///< A2, B2, C2
+    std::array<std::optional<AxisTarget>, 3> center;   ///< I, J, K
+    std::array<std::optional<AxisTarget>, 3> through;  ///< I1, J1, K1
+    std::optional<double> radius;                      ///< CR
+    std::optional<double> arc_angle_deg;               ///< AR
+    std::optional<double> turns;                       ///< TURN
     std::optional<double> feed;
     std::optional<double> speed;
     std::optional<std::string> tool;
@@ -68,8 +71,13 @@ struct BlockContent {
 
     [[nodiscard]] bool movesLinear() const { return linear[0] || linear[1] || linear[2]; }
     [[nodiscard]] bool movesRotary() const { return rotary[0] || rotary[1] || rotary[2]; }
-    [[nodiscard]] bool hasVector() const { return vector[0] || vector[1] || vector[2]; }
-    [[nodiscard]] bool hasArcWords() const { return center[0] || center[1] || center[2] || radius || turns; }
+    [[nodiscard]] bool hasAngles() const { return angles_deg[0] || angles_deg[1] || angles_deg[2]; }
+    /// An orientation that leaves the rotary axes to the control.
+    [[nodiscard]] bool hasVector() const { return vector[0] || vector[1] || vector[2] || hasAngles(); }
+    [[nodiscard]] bool hasThrough() const { return through[0] || through[1] || through[2]; }
+    [[nodiscard]] bool hasArcWords() const {
+        return center[0] || center[1] || center[2] || radius || arc_angle_deg || turns || hasThrough();
+    }
 };
 
 /// Sorts blocks; keeps the program's variables, which assignments in a block change at once.

@@ -71,7 +71,7 @@ void Executor::forgetLinear() {
 }
 
 MotionCode Executor::motionCode() const {
-    const char digit = active_[group::motion][1];
+    const char digit = active_[group::motion][1];  // of CIP, which has no sense of its own, an I
     return digit == '0'   ? MotionCode::Rapid
            : digit == '1' ? MotionCode::Linear
            : digit == '2' ? MotionCode::ArcClockwise

@@ -3,6 +3,7 @@
 // The machine's state, and what each block does to it.
 #pragma once
 
+#include "arc.hpp"
 #include "block_content.hpp"
 #include "frame.hpp"
 
@@ -56,6 +57,9 @@ private:
     [[nodiscard]] Frame frame() const { return swivel_frame_ * programmed_frame_; }
     /// Where programmed coordinates, all known, lie in the frame of the work offset.
     [[nodiscard]] Vector3 basePoint(const AxisPositions& position) const;
+    [[nodiscard]] bool endArcByAngle(const BlockContent& content);
+    [[nodiscard]] std::optional<Vector3> programmedAxis(const BlockContent& content);
+    [[nodiscard]] ArcRequest arcRequest(const ExecutedMotion& motion) const;
     [[nodiscard]] bool addArc(const BlockContent& content, ExecutedMotion& motion);
     void requireRotary();
     [[nodiscard]] std::optional<ToolPose> pose(const AxisPositions& position) const;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // Motion blocks: from words to where the tool goes.
-#include "arc.hpp"
 #include "executor.hpp"
 
 #include <cusp/base/units.hpp>
@@ -21,7 +20,7 @@ constexpr double zero_rad = 1e-9;
 
 bool Executor::checkMotion(const BlockContent& content, bool is_arc, bool moves) {
     if (!is_arc && content.hasArcWords()) {
-        error("nc.arc", "I, J, K, CR and TURN belong to G2 and G3");
+        error("nc.arc", "I, J, K, CR, AR and TURN belong to G2 and G3");
         return false;
     }
     if (moves && !isActive(group::motion, "G0") && !state_.feed.value && !feed_missing_reported_) {
@@ -29,8 +28,9 @@ bool Executor::checkMotion(const BlockContent& content, bool is_arc, bool moves)
         error("nc.no-feed", "a feed motion without feed: no F has been programmed for the active feed type");
     }
     if (content.hasVector() && (!transformation_ || content.movesRotary())) {
-        error("nc.vector", transformation_ ? "A3, B3, C3 and rotary axes exclude each other in a block"
-                                           : "A3, B3, C3 have a meaning under TRAORI only");
+        const std::string_view words = content.hasAngles() ? "A2, B2, C2" : "A3, B3, C3";
+        error("nc.vector", transformation_ ? fmt::format("{} and rotary axes exclude each other in a block", words)
+                                           : fmt::format("{} have a meaning under TRAORI only", words));
         return false;
     }
     return true;
@@ -53,6 +53,8 @@ void Executor::move(const BlockContent& content) {
     motion.start = position_;
     motion.start_pose = motion.machine_coordinates ? std::nullopt : pose(position_);
     if (!applyTargets(content, motion) || !applyVector(content)) return forgetLinear();
+    if (is_arc && !endArcByAngle(content)) return forgetLinear();
+    if (is_arc && !motion.machine_coordinates) motion.end.linear_mm = position_.linear_mm;
     motion.end.rotary_rad = position_.rotary_rad;
     if (!motion.machine_coordinates) {
         if (transformation_) requireRotary();
@@ -147,36 +149,74 @@ bool Executor::applyTargets(const BlockContent& content, ExecutedMotion& motion)
     return good;
 }
 
-bool Executor::applyVector(const BlockContent& content) {
-    if (!content.hasVector()) return true;
+/// RPY: the direction Z turned by A2 about X, then by B2 about Y, then by C2 about Z, these at rest; Euler: about Z, the new
+/// X, the new Z, of which the last has no effect (PGA, orientation by angles).
+std::optional<Vector3> Executor::programmedAxis(const BlockContent& content) {
+    if (content.hasAngles()) {
+        const auto at = [&](std::size_t i) { return base::radFromDeg(content.angles_deg[i].value_or(0.0)); };
+        const bool euler = isActive(group::orientation_angles, "ORIEULER");
+        if (euler) return (turnedAbout(2, at(0)) * turnedAbout(0, at(1))).z;
+        if (isActive(group::orientation_angles, "ORIRPY"))
+            return (turnedAbout(2, at(2)) * turnedAbout(1, at(1)) * turnedAbout(0, at(0))).z;
+        error(
+            "nc.unsupported",
+            "A2, B2, C2 need ORIEULER or ORIRPY: which of them holds from the start is the machine's setting (MD21100)");
+        return std::nullopt;
+    }
     const Vector3 programmed{content.vector[0].value_or(0.0), content.vector[1].value_or(0.0),
                              content.vector[2].value_or(0.0)};
     const double length = norm(programmed);
-    if (length == 0.0 || !std::isfinite(length)) {
-        error("nc.vector", "A3, B3, C3 describe no direction");
-        return false;
-    }
+    if (length > 0.0 && std::isfinite(length)) return (1.0 / length) * programmed;
+    error("nc.vector", "A3, B3, C3 describe no direction");
+    return std::nullopt;
+}
+
+bool Executor::applyVector(const BlockContent& content) {
+    if (!content.hasVector()) return true;
+    const auto programmed = programmedAxis(content);
+    if (!programmed) return false;
     if (frame().turned() && !isActive(group::orientation_frame, "ORIWKS")) {
-        error("nc.unsupported", "A3, B3, C3 in machine coordinates (ORIMKS) under a turned frame are not interpreted");
+        error("nc.unsupported",
+              "an orientation in machine coordinates (ORIMKS) under a turned frame is not interpreted");
         return false;
     }
-    tool_axis_ = frame().direction((1.0 / length) * programmed);
+    tool_axis_ = frame().direction(*programmed);
     position_.rotary_rad = {};
     return true;
+}
+
+ArcRequest Executor::arcRequest(const ExecutedMotion& motion) const {
+    const auto point = [](const AxisPositions& at) {
+        return Vector3{at.linear_mm[0].value_or(0.0), at.linear_mm[1].value_or(0.0), at.linear_mm[2].value_or(0.0)};
+    };
+    ArcRequest request;
+    request.start_mm = point(motion.start);
+    request.end_mm = point(motion.end);
+    request.plane = active_[group::plane];
+    request.clockwise = isActive(group::motion, "G2");
+    request.through = isActive(group::motion, "CIP");
+    request.incremental = isActive(group::dimension, "G91");
+    request.mm_per_unit = mmPerUnit();
+    return request;
+}
+
+/// An arc by its centre and angle says nothing of its end.
+bool Executor::endArcByAngle(const BlockContent& content) {
+    auto& at = position_.linear_mm;
+    if (!content.arc_angle_deg || !at[0] || !at[1] || !at[2]) return true;
+    ExecutedMotion stands;
+    stands.start = stands.end = position_;
+    std::string problem;
+    const auto end = endByAngle(content, arcRequest(stands), problem);
+    if (!problem.empty()) error("nc.arc", "the arc cannot be run: " + problem);
+    if (end) at = {end->x, end->y, end->z};
+    return problem.empty();
 }
 
 bool Executor::addArc(const BlockContent& content, ExecutedMotion& motion) {
     std::string problem = "where it starts is not known from the program";
     const auto known = [](const AxisPositions& at) { return at.linear_mm[0] && at.linear_mm[1] && at.linear_mm[2]; };
-    if (known(motion.start) && known(motion.end)) {
-        ArcRequest request;
-        request.start_mm = {*motion.start.linear_mm[0], *motion.start.linear_mm[1], *motion.start.linear_mm[2]};
-        request.end_mm = {*motion.end.linear_mm[0], *motion.end.linear_mm[1], *motion.end.linear_mm[2]};
-        request.plane = active_[group::plane];
-        request.clockwise = motion.code == MotionCode::ArcClockwise;
-        request.mm_per_unit = mmPerUnit();
-        motion.arc = makeArc(content, request, problem);
-    }
+    if (known(motion.start) && known(motion.end)) motion.arc = makeArc(content, arcRequest(motion), problem);
     if (motion.arc) {
         const Frame base = frame();
         motion.arc->center_mm = base.point(motion.arc->center_mm);

@@ -13,19 +13,21 @@ namespace cusp::post::reader {
 namespace {
 
 constexpr GroupCode group_codes[] = {
-    {"G0", 1},        {"G1", 1},         {"G2", 1},          {"G3", 1},          {"STOPFIFO", 4},   {"STARTFIFO", 4},
-    {"FIFOCTRL", 4},  {"G17", 6},        {"G18", 6},         {"G19", 6},         {"G40", 7},        {"G41", 7},
-    {"G42", 7},       {"G53", 9, false}, {"G153", 9, false}, {"SUPA", 9, false}, {"G60", 10},       {"G64", 10},
-    {"G641", 10},     {"G642", 10},      {"G643", 10},       {"G644", 10},       {"G645", 10},      {"G9", 11, false},
-    {"G601", 12},     {"G602", 12},      {"G603", 12},       {"G70", 13},        {"G71", 13},       {"G700", 13},
-    {"G710", 13},     {"G90", 14},       {"G91", 14},        {"G93", 15},        {"G94", 15},       {"G95", 15},
-    {"CFC", 16},      {"CFTCP", 16},     {"CFIN", 16},       {"NORM", 17},       {"KONT", 17},      {"G450", 18},
-    {"G451", 18},     {"BRISK", 21},     {"SOFT", 21},       {"DRIVE", 21},      {"CUT2D", 22},     {"CUT2DF", 22},
-    {"CUT3DC", 22},   {"CUT3DF", 22},    {"FFWOF", 24},      {"FFWON", 24},      {"ORIWKS", 25},    {"ORIMKS", 25},
-    {"ORIC", 27},     {"ORID", 27},      {"WALIMON", 28},    {"WALIMOF", 28},    {"COMPOF", 30},    {"COMPON", 30},
-    {"COMPCURV", 30}, {"COMPCAD", 30},   {"COMPSURF", 30},   {"FNORM", 37},      {"SPATH", 45},     {"UPATH", 45},
-    {"CP", 49},       {"ORIVECT", 51},   {"ORIPLANE", 51},   {"ORIAXES", 51},    {"RTLION", 55},    {"RTLIOF", 55},
-    {"DYNNORM", 59},  {"DYNPOS", 59},    {"DYNROUGH", 59},   {"DYNSEMIFIN", 59}, {"DYNFINISH", 59}, {"DYNPREC", 59},
+    {"CIP", 1},        {"ORIEULER", 50},   {"ORIRPY", 50},     {"OSC", 34},       {"OSS", 34},       {"OSSE", 34},
+    {"OSOF", 34},      {"OSD", 34},        {"OST", 34},        {"ORISON", 61},    {"ORISOF", 61},    {"G0", 1},
+    {"G1", 1},         {"G2", 1},          {"G3", 1},          {"STOPFIFO", 4},   {"STARTFIFO", 4},  {"FIFOCTRL", 4},
+    {"G17", 6},        {"G18", 6},         {"G19", 6},         {"G40", 7},        {"G41", 7},        {"G42", 7},
+    {"G53", 9, false}, {"G153", 9, false}, {"SUPA", 9, false}, {"G60", 10},       {"G64", 10},       {"G641", 10},
+    {"G642", 10},      {"G643", 10},       {"G644", 10},       {"G645", 10},      {"G9", 11, false}, {"G601", 12},
+    {"G602", 12},      {"G603", 12},       {"G70", 13},        {"G71", 13},       {"G700", 13},      {"G710", 13},
+    {"G90", 14},       {"G91", 14},        {"G93", 15},        {"G94", 15},       {"G95", 15},       {"CFC", 16},
+    {"CFTCP", 16},     {"CFIN", 16},       {"NORM", 17},       {"KONT", 17},      {"G450", 18},      {"G451", 18},
+    {"BRISK", 21},     {"SOFT", 21},       {"DRIVE", 21},      {"CUT2D", 22},     {"CUT2DF", 22},    {"CUT3DC", 22},
+    {"CUT3DF", 22},    {"FFWOF", 24},      {"FFWON", 24},      {"ORIWKS", 25},    {"ORIMKS", 25},    {"ORIC", 27},
+    {"ORID", 27},      {"WALIMON", 28},    {"WALIMOF", 28},    {"COMPOF", 30},    {"COMPON", 30},    {"COMPCURV", 30},
+    {"COMPCAD", 30},   {"COMPSURF", 30},   {"FNORM", 37},      {"SPATH", 45},     {"UPATH", 45},     {"CP", 49},
+    {"ORIVECT", 51},   {"ORIPLANE", 51},   {"ORIAXES", 51},    {"RTLION", 55},    {"RTLIOF", 55},    {"DYNNORM", 59},
+    {"DYNPOS", 59},    {"DYNROUGH", 59},   {"DYNSEMIFIN", 59}, {"DYNFINISH", 59}, {"DYNPREC", 59},
 };
 
 struct Refused {
@@ -98,7 +100,10 @@ constexpr Refused refused_words[] = {
     {"ORICONTO", "orientation on a cone"},
     {"PTP", "point-to-point travel"},
     {"PTPG0", "point-to-point travel"},
-    {"CIP", "a circle through an intermediate point"},
+    {"ORIVIRT1", "orientation by virtual axes"},
+    {"ORIVIRT2", "orientation by virtual axes"},
+    {"ORIAXPOS", "orientation by virtual axes"},
+    {"ORIRPY2", "orientation by angles in another order"},
     {"CT", "a tangential circle"},
     {"INVCW", "an involute"},
     {"INVCCW", "an involute"},
@@ -114,15 +119,8 @@ constexpr Refused refused_words[] = {
 };
 
 constexpr Refused refused_addresses[] = {
-    {"AR", "an arc by its angle"},
     {"AP", "polar coordinates"},
     {"RP", "polar coordinates"},
-    {"I1", "a circle through an intermediate point"},
-    {"J1", "a circle through an intermediate point"},
-    {"K1", "a circle through an intermediate point"},
-    {"A2", "orientation by angles"},
-    {"B2", "orientation by angles"},
-    {"C2", "orientation by angles"},
     {"A4", "orientation by surface normals"},
     {"B4", "orientation by surface normals"},
     {"C4", "orientation by surface normals"},
@@ -270,6 +268,10 @@ std::string_view refusedCode(int g_number) {
 
 std::string_view refusedAddress(std::string_view name) { return lookUp(refused_addresses, name); }
 
+bool hasNoEffect(std::string_view call) {
+    return call == "WORKPIECE" || call == "GROUP_BEGIN" || call == "GROUP_END" || call == "GROUP_ADDEND";
+}
+
 bool isFlowStatement(std::string_view name) { return contains(flow_statements, name); }
 
 bool isStatement(std::string_view name) {
@@ -277,7 +279,7 @@ bool isStatement(std::string_view name) {
 }
 
 bool isVocabulary(std::string_view name) {
-    return findGroupCode(name) || !refusedWord(name).empty() || contains(other_words, name);
+    return findGroupCode(name) || hasNoEffect(name) || !refusedWord(name).empty() || contains(other_words, name);
 }
 
 bool isAddressWithoutEquals(std::string_view name) {

@@ -20,6 +20,7 @@ inline constexpr int units = 13;
 inline constexpr int dimension = 14;
 inline constexpr int feed = 15;
 inline constexpr int orientation_frame = 25;
+inline constexpr int orientation_angles = 50;
 inline constexpr int orientation_path = 51;
 inline constexpr int count = 64;
 }  // namespace group
@@ -33,6 +34,9 @@ struct GroupCode {
 /// "G54", "TRAORI" is none. Nothing for words that belong to no group here, or that are refused.
 [[nodiscard]] std::optional<GroupCode> findGroupCode(std::string_view name);
 [[nodiscard]] std::optional<GroupCode> findGroupCode(int g_number);
+
+/// Calls for the eyes of the operator: the blank of the simulation, folds of the editor.
+[[nodiscard]] bool hasNoEffect(std::string_view call);
 
 /// What a refused word is ("a jump"), or empty when it is not refused.
 [[nodiscard]] std::string_view refusedWord(std::string_view name);

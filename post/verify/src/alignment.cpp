@@ -23,6 +23,8 @@ constexpr double same_tip_mm = 1e-9;
 constexpr double same_axis_rad = 1e-12;
 /// Rounding of limits between degrees and radians.
 constexpr double limit_slack_rad = 1e-9;
+/// Two turns: no way between two CL points takes more, and nothing is sampled for it.
+constexpr double most_travel_rad = 4.0 * std::numbers::pi;
 /// Printed rotary values differ from the exact ones; far below any wrong branch away from the pole.
 constexpr double branch_slack_rad = base::radFromDeg(0.1);
 
@@ -300,6 +302,7 @@ void Alignment::checkKind(const ExecutedMotion& motion, const ExpectedPoint& poi
 void Alignment::checkBetween(const ExecutedMotion& motion, double to) {
     // A block behind one that leads nowhere comes from off the path; that one is named.
     if (next_ == 0 || !at_ || !motion.start_pose || !difference(*motion.start_pose, *at_).within(tolerance_)) return;
+    if (reader::rotaryTravel(motion) > most_travel_rad) return;
     const ExpectedPoint& point = expected_->points[next_];
     const PoseError stray = strayBetween(motion, chain_, nextMove(), fraction_, to);
     const bool rapid = isRapid(motion);
@@ -326,6 +329,10 @@ void Alignment::checkBetween(const ExecutedMotion& motion, double to) {
 void Alignment::checkTurns(const ExecutedMotion& motion, std::size_t cl_line) {
     if (!motion.start_pose || !at_) return;
     const double travel = reader::rotaryTravel(motion);
+    if (travel > most_travel_rad)
+        return findings_.error(
+            "verify.winding", motion.place,
+            fmt::format("a rotary axis turns {:.4g}° on the way to CL line {}", base::degFromRad(travel), cl_line));
     const double turn = reader::angleBetween(motion.start_pose->axis, motion.end_pose->axis);
     if (travel <= 2.0 * turn + branch_slack_rad) return;
     ExecutedMotion linear = motion;

@@ -54,6 +54,19 @@ INSTANTIATE_TEST_SUITE_P(
                     ArcCase{"full circle", "G3 I-10", 2 * pi, {-10, 0, 0}},
                     ArcCase{"helix", "G3 X-10 Z4 I-10", pi, {0, 10, 2}},
                     ArcCase{"helix with a turn more", "G3 X-10 Z4 I-10 TURN=1", 3 * pi, {0, -10, 2}},
+                    ArcCase{"by angle and end", "G3 X-10 AR=180", pi, {0, 10, 0}},
+                    ArcCase{"by angle and end, clockwise",
+                            "G2 X0 Y10 AR=90",
+                            -pi / 2,
+                            {10 - 10 * std::sqrt(0.5), 10 - 10 * std::sqrt(0.5), 0}},
+                    ArcCase{"by angle and end, the long way",
+                            "G3 X0 Y10 AR=270",
+                            1.5 * pi,
+                            {10 + 10 * std::sqrt(0.5), 10 + 10 * std::sqrt(0.5), 0}},
+                    ArcCase{"by angle and centre", "G2 I-10 AR=180 Z4", -pi, {0, -10, 2}},
+                    ArcCase{"through a point", "CIP X-10 I1=0 J1=10", pi, {0, 10, 0}},
+                    ArcCase{"through a point, in a plane of its own", "CIP X-10 I1=0 K1=10", pi, {0, 0, 10}},
+                    ArcCase{"through a point, by distances", "G91 CIP X-20 I1=-10 J1=-10", pi, {0, -10, 0}},
                     ArcCase{"G18: from Z to X is positive", "G18 G3 X-10 I-10", pi, {0, 0, -10}}));
 
 TEST(Arcs, ARealArcOfLargeRadiusIsAccepted) {

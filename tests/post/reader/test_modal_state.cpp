@@ -146,5 +146,22 @@ TEST(ModalState, ThreeAxisMachineNeedsNoTransformation) {
     EXPECT_EQ(norm(out.motions[0].motion.end_pose->tip_mm - Vector3{1, 2, 3}), 0.0);
 }
 
+TEST(ModalState, WhatOnlyTheOperatorSeesHasNoEffect) {
+    const Recording out =
+        runLines("WORKPIECE(,\"\",,\"BOX\",112,0,-20,-80,0,0,100,100)\nGROUP_BEGIN(0,\"ROUGH\",0,0)\nG0 A0 C0\n"
+                 "G54 G0 X1 Y2 Z3\nGROUP_END(0,0)");
+    EXPECT_EQ(out.problems, "");
+    EXPECT_EQ(out.motions.size(), 2U);
+}
+
+TEST(ModalState, CutterCompensationKeepsTheContour) {
+    const Recording out = runLines("G0 A0 C0\nG54 G0 X0 Y0 Z0 F100\nG41 G1 X10\nG42 Y10\nG40 X0");
+    ASSERT_EQ(out.problems, "");
+    EXPECT_EQ(out.motions[2].state.compensation, RadiusCompensation::Left);
+    EXPECT_EQ(out.motions[3].state.compensation, RadiusCompensation::Right);
+    EXPECT_NEAR(norm(out.motions[3].motion.end_pose->tip_mm - Vector3{10, 10, 0}), 0.0, 1e-12);
+    EXPECT_EQ(out.motions[4].state.compensation, RadiusCompensation::Off);
+}
+
 }  // namespace
 }  // namespace cusp::post::reader::test

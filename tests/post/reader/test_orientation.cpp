@@ -73,6 +73,16 @@ TEST(Orientation, VectorsOfAnyLengthAndMissingComponents) {
     EXPECT_FALSE(out.motions[0].motion.end.rotary_rad[0]);
 }
 
+TEST(Orientation, AnglesInBothConventions) {
+    // RPY 90, 90 about X and Z: Z goes to −Y, and then to X. Euler 90, 90: about Z, then about the new X, which is Y: Z to X.
+    const Recording out = runLines("TRAORI\nORIRPY G0 X0 Y0 Z0 A2=90 C2=90\nA2=30\nORIEULER A2=90 B2=90 C2=17");
+    ASSERT_EQ(out.problems, "");
+    EXPECT_NEAR(norm(out.motions[0].motion.end_pose->axis - Vector3{1, 0, 0}), 0.0, 1e-15);
+    EXPECT_NEAR(norm(out.motions[1].motion.end_pose->axis - Vector3{0, -0.5, std::sqrt(0.75)}), 0.0, 1e-15);
+    EXPECT_NEAR(norm(out.motions[2].motion.end_pose->axis - Vector3{1, 0, 0}), 0.0, 1e-15);
+    EXPECT_TRUE(out.motions[2].motion.vector_programmed);
+}
+
 TEST(Orientation, Md21104DecidesWhichWordActs) {
     MachineFile machine = shippedMachine("head-c200-a95");
     const std::string program = "TRAORI\nORIAXES ORIWKS\nG0 X0 Y0 Z0 A0 C0\nORIVECT ORIMKS\nX1\nM30\n";
