@@ -21,6 +21,7 @@ void addMachineCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);
 void addTextureCommand(CLI::App& app, Action& action);
+void addSendCommand(CLI::App& app, Action& action);
 void addVerifyCommand(CLI::App& app, Action& action);
 
 }  // namespace cusp::cli

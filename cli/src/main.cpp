@@ -26,6 +26,7 @@ ExitCode run(int argc, char** argv) {
     addVerifyCommand(app, action);
     addEvaluateCommand(app, action);
     addTextureCommand(app, action);
+    addSendCommand(app, action);
     addMachineCommand(app, action);
     addSchemaCommand(app, action);
     try {

@@ -39,7 +39,7 @@ Request Conversation::make(RequestType type, std::uint32_t argument, ByteView pa
     // Tags wrap around; the window of those believed never covers more than half of them.
     if (static_cast<std::uint16_t>(next_tag_ - first_tag_) > half_of_all_tags)
         first_tag_ = static_cast<std::uint16_t>(next_tag_ - half_of_all_tags);
-    if (reply_wanted) sent_[tag % remembered] = {tag, now_s};
+    if (reply_wanted) sent_[tag % remembered] = {tag, argument, now_s};
     Request out;
     out.bytes = encode(RequestMessage{type, reply_wanted, tag, session_, argument, payload});
     out.reply_wanted = reply_wanted;
@@ -69,6 +69,11 @@ std::optional<Acknowledgement> Conversation::accept(ByteView reply, double now_s
     return acknowledgement;
 }
 
+std::optional<std::uint32_t> Conversation::argumentOf(std::uint16_t tag) const {
+    const Sent& sent = sent_[tag % remembered];
+    return sent.tag == tag ? std::optional(sent.argument) : std::nullopt;
+}
+
 void Conversation::enter(std::uint32_t session) {
     session_ = session;
     first_tag_ = next_tag_;
@@ -83,7 +88,7 @@ std::optional<Request> Exchange::poll(Conversation& conversation, double now_s) 
 }
 
 double Exchange::nextAt_s(const Conversation& conversation) const {
-    return sent_s < 0.0 ? 0.0 : sent_s + conversation.roundTrip().timeout_s();
+    return sent_s < 0.0 ? not_before_s : sent_s + conversation.roundTrip().timeout_s();
 }
 
 }  // namespace cusp::comm

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace cusp::comm {
 
-PieceReader::PieceReader(std::size_t piece_bytes, std::size_t window, std::uint32_t max_bytes)
-    : piece_bytes_(std::clamp<std::size_t>(piece_bytes, 1, max_payload_bytes)),
+PieceReader::PieceReader(std::string name, std::size_t piece_bytes, std::size_t window, std::uint32_t max_bytes)
+    : name_(std::move(name)),
+      piece_bytes_(std::clamp<std::size_t>(piece_bytes, 1, max_payload_bytes)),
       window_(std::max<std::size_t>(1, window)),
       max_bytes_(max_bytes),
       pieces_(1) {}
@@ -27,6 +29,7 @@ std::optional<Request> PieceReader::poll(Conversation& conversation, double now_
         piece.asked_s = now_s;
         Bytes wanted;
         put16(wanted, static_cast<std::uint32_t>(piece_bytes_));
+        append(wanted, bytesOf(name_));
         return conversation.make(RequestType::Read, static_cast<std::uint32_t>(i * piece_bytes_), wanted, true, now_s);
     }
     return std::nullopt;

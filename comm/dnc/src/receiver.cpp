@@ -104,10 +104,6 @@ Reason Receiver::act(const RequestMessage& message, double now_s) {
 
 Reason Receiver::command(const RequestMessage& message, double now_s) {
     if (message.type == RequestType::Commit) return commit(message);
-    if (message.type == RequestType::Select) {
-        if (!message.payload.empty() && !isProgramName(textOf(message.payload))) return Reason::NotFound;
-        return host_.select(textOf(message.payload));
-    }
     if (!message.payload.empty()) return Reason::Malformed;
     switch (message.type) {
         case RequestType::Arm: return arm(now_s);
@@ -202,7 +198,10 @@ Reason Receiver::abort() {
 
 Reason Receiver::readPiece(const RequestMessage& message) {
     upload_.clear();
-    if (message.payload.size() != 2) return Reason::Malformed;
+    if (message.payload.size() < 2) return Reason::Malformed;
+    const std::string name = textOf(message.payload.subspan(2));
+    if (!name.empty() && !isProgramName(name)) return Reason::NotFound;
+    if (const Reason reason = host_.select(name); reason != Reason::None) return reason;
     Bytes bytes(std::min<std::size_t>(get16(message.payload, 0), max_payload_bytes));
     bytes.resize(host_.read(message.argument, bytes));
     upload_ = encode(UploadPiece{message.argument, host_.selectedLength(), bytes});

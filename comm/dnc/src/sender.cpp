@@ -14,6 +14,7 @@ namespace cusp::comm {
 namespace {
 
 constexpr double chunk_s = 0.15;
+constexpr double ask_again_s = 0.5;
 constexpr std::uint32_t fallback_chunk_bytes = 1024;
 
 ProgramHeader headerOf(const Program& program, const SenderOptions& options) {
@@ -89,7 +90,7 @@ std::optional<Request> Sender::poll(double now_s) {
 bool Sender::checkStandstill(double now_s) {
     const double heard_s = std::max(conversation_.lastHeard_s(), last_gain_s_);
     if (phase_ == Phase::Cancel && now_s > last_gain_s_ + 2.0) {
-        abort("dnc.cancelled", fmt::format("cancelled {}", place()));
+        finish(outcome_.end, outcome_.code, outcome_.message, outcome_.resumable);
         return true;
     }
     if (now_s > heard_s + options_.silence_s) {
@@ -123,7 +124,7 @@ void Sender::receive(ByteView reply, double now_s) {
     switch (phase_) {
         case Phase::Probe: return onProbe(*read, now_s);
         case Phase::Stream: return onStream(*read, now_s);
-        case Phase::Compare: return onCompare(reply, now_s);
+        case Phase::Compare: return onCompare(*read, reply, now_s);
         default: return onCommand(*read, now_s);
     }
 }
@@ -142,6 +143,14 @@ void Sender::onOpen(const Acknowledgement& reply, double now_s) {
     if (!answered && reply.session != conversation_.session()) return onReset(reply, now_s);
     if (!answered) return;
     last_gain_s_ = now_s;
+    if (reply.command_result == Reason::Busy) {
+        if (!busy_until_s_) busy_until_s_ = now_s + options_.busy_s;
+        if (now_s < *busy_until_s_) {
+            begin(Phase::Open, RequestType::Open, encode(header_));
+            exchange_->not_before_s = now_s + ask_again_s;
+            return;
+        }
+    }
     if (reply.command_result != Reason::None) {
         finish(TransferEnd::Refused, "dnc.refused",
                fmt::format("{} was refused: {}", header_.name, toText(reply.command_result)), false);
@@ -169,9 +178,7 @@ void Sender::judgeRate() {
     if (!options_.demand || !statistics_.link_bytes_per_s || options_.mode != TransferMode::Drip) return;
     statistics_.rate_check = checkRate(*options_.demand, *statistics_.link_bytes_per_s, free_bytes_);
     if (!statistics_.rate_check->starves_at_s || !options_.refuse_slow_link) return;
-    outcome_.code = "dnc.link-too-slow";
-    outcome_.message = toText(*statistics_.rate_check);
-    begin(Phase::Cancel, RequestType::Abort);
+    close(TransferEnd::Refused, "dnc.link-too-slow", toText(*statistics_.rate_check), false);
 }
 
 void Sender::onReset(const Acknowledgement& reply, double now_s) {
@@ -207,13 +214,12 @@ void Sender::onCommand(const Acknowledgement& reply, double now_s) {
     last_gain_s_ = now_s;
     const Reason result = reply.command_result;
     if (phase_ == Phase::Cancel) {
-        const bool too_slow = outcome_.code == "dnc.link-too-slow";
-        if (too_slow) return finish(TransferEnd::Refused, outcome_.code, outcome_.message, false);
-        return abort("dnc.cancelled", fmt::format("cancelled {}", place()));
+        finish(outcome_.end, outcome_.code, outcome_.message, outcome_.resumable);
+        return;
     }
     if (result != Reason::None) {
         const bool wrong_content = result == Reason::DigestDiffers;
-        return abort("dnc.failed", fmt::format("{} failed: {}", place(), toText(result)), wrong_content);
+        return close(TransferEnd::Aborted, "dnc.failed", fmt::format("{}: {}", place(), toText(result)), wrong_content);
     }
     if (phase_ == Phase::Commit) return afterCommit();
     if (phase_ == Phase::Arm) return afterArm();
@@ -227,15 +233,16 @@ void Sender::afterCommit() {
         exchange_.reset();
         const std::size_t room =
             link_.max_reply_bytes > upload_header_bytes ? link_.max_reply_bytes - upload_header_bytes : std::size_t{1};
-        reader_.emplace(std::min<std::size_t>(room, most_chunk_bytes_), link_.useful_in_flight, header_.length);
+        reader_.emplace(std::string(), std::min<std::size_t>(room, most_chunk_bytes_), link_.useful_in_flight,
+                        header_.length);
         return;
     }
     afterCompare();
 }
 
-void Sender::onCompare(ByteView reply, double now_s) {
+void Sender::onCompare(const Acknowledgement& read, ByteView reply, double now_s) {
     const auto piece = decodeUploadPiece(reply);
-    if (!piece) return;
+    if (read.reason != Reason::None || !piece || conversation_.argumentOf(read.tag) != piece->offset) return;
     const std::uint32_t before = reader_->received();
     const bool sane = reader_->accept(*piece);
     if (reader_->received() > before) {
@@ -278,7 +285,7 @@ void Sender::cancel(double now_s) {
         abort("dnc.cancelled", "cancelled before the transfer was opened");
         return;
     }
-    begin(Phase::Cancel, RequestType::Abort);
+    close(TransferEnd::Aborted, "dnc.cancelled", fmt::format("cancelled {}", place()), true);
 }
 
 std::string Sender::place() const {
@@ -296,6 +303,14 @@ std::string Sender::place() const {
 
 void Sender::abort(std::string code, std::string message, bool resumable) {
     finish(TransferEnd::Aborted, std::move(code), std::move(message), resumable);
+}
+
+void Sender::close(TransferEnd end, std::string code, std::string message, bool resumable) {
+    outcome_.end = end;
+    outcome_.code = std::move(code);
+    outcome_.message = std::move(message);
+    outcome_.resumable = resumable;
+    begin(Phase::Cancel, RequestType::Abort);
 }
 
 void Sender::finish(TransferEnd end, std::string code, std::string message, bool resumable) {

@@ -15,6 +15,7 @@ namespace cusp::comm {
 
 namespace {
 constexpr int mapped_registers = 0x0400;
+constexpr std::size_t area_registers = 0x0100;
 constexpr std::size_t tcp_header_bytes = 7;
 constexpr std::size_t most_incoming_bytes = 16 * 1024;
 }  // namespace
@@ -30,7 +31,8 @@ base::Result<ModbusResponder> ModbusResponder::make(ModbusContext context, Reque
 
 void ModbusResponder::refresh(std::uint16_t address, const Bytes& bytes) {
     const Registers registers = toRegisters(bytes);
-    const std::size_t room = mapped_registers - address;
+    const std::size_t room = area_registers;
+    std::fill_n(mapping_->tab_registers + address, room, std::uint16_t{0});
     std::copy_n(registers.begin(), std::min(room, registers.size()), mapping_->tab_registers + address);
 }
 

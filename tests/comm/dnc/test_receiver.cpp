@@ -262,9 +262,9 @@ TEST_F(ReceiverTest, WhatComesFasterThanTheCapHasNoEffect) {
 TEST_F(ReceiverTest, ProgramsAreReadBack) {
     make();
     host.programs["OLD.SPF"] = "old text";
-    EXPECT_EQ(command(RequestType::Select, bytesOf("../x")).command_result, Reason::NotFound);
-    EXPECT_EQ(command(RequestType::Select, bytesOf("OLD.SPF")).command_result, Reason::None);
-    const Bytes wanted{0, 5};
+    EXPECT_EQ(ask(RequestType::Read, 0, bytesOf(std::string("\0\x05../x", 6))).reason, Reason::NotFound);
+    EXPECT_EQ(ask(RequestType::Read, 0, bytesOf(std::string("\0\x05NONE", 6))).reason, Reason::NotFound);
+    const Bytes wanted = bytesOf(std::string("\0\x05OLD.SPF", 9));
     const Bytes reply = receiver->handle(encode({RequestType::Read, true, 1, receiver->session(), 4, wanted}), now_s);
     const auto piece = decodeUploadPiece(reply);
     ASSERT_TRUE(piece.has_value());

@@ -48,6 +48,9 @@ public:
     /// From now on this session counts, and only replies to what is sent from now on.
     void enter(std::uint32_t session);
 
+    /// What the request with this tag was about; nothing when that is not remembered.
+    [[nodiscard]] std::optional<std::uint32_t> argumentOf(std::uint16_t tag) const;
+
     [[nodiscard]] std::uint32_t session() const { return session_; }
     [[nodiscard]] double lastHeard_s() const { return last_heard_s_; }
     [[nodiscard]] std::uint64_t damagedReplies() const { return damaged_; }
@@ -57,6 +60,7 @@ public:
 private:
     struct Sent {
         std::uint16_t tag = 0;
+        std::uint32_t argument = 0;
         double at_s = -1.0;  ///< negative: answered already
     };
     static constexpr std::size_t remembered = 512;
@@ -77,6 +81,7 @@ struct Exchange {
     std::uint32_t argument = 0;
     Bytes payload;
     double sent_s = -1.0;  ///< negative: not yet
+    double not_before_s = 0.0;
     unsigned tries = 0;
 
     /// The request, when it is time for it (again).

@@ -30,9 +30,8 @@ enum class RequestType : std::uint8_t {
     Arm = 5,
     Start = 6,
     Abort = 7,
-    Select = 8,
-    Read = 9,
-    Probe = 10,
+    Read = 8,
+    Probe = 9,
 };
 
 /// Of the control's end. Programs may arrive in `Receiving`, and in drip mode in `Armed` and `Running` as well.

@@ -7,14 +7,16 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace cusp::comm {
 
 class PieceReader {
 public:
-    /// `piece_bytes` a reply can carry, `window` pieces asked for at the same time, at most `max_bytes` in all.
-    PieceReader(std::size_t piece_bytes, std::size_t window, std::uint32_t max_bytes);
+    /// The program `name`, or with an empty name that of the present transfer. `piece_bytes` a reply can carry, `window`
+    /// pieces asked for at the same time, at most `max_bytes` in all.
+    PieceReader(std::string name, std::size_t piece_bytes, std::size_t window, std::uint32_t max_bytes);
 
     [[nodiscard]] std::optional<Request> poll(Conversation& conversation, double now_s);
     /// False: the control says it has more than `max_bytes`, or changes its mind about how many.
@@ -29,6 +31,7 @@ private:
         bool have = false;
         double asked_s = -1.0;
     };
+    std::string name_;
     std::size_t piece_bytes_;
     std::size_t window_;
     std::uint32_t max_bytes_;

@@ -51,7 +51,7 @@ public:
     [[nodiscard]] virtual Reason arm() = 0;
     /// Starts it. Called once for each start that was let through.
     [[nodiscard]] virtual Reason start() = 0;
-    /// Chooses the program that `read` reads; an empty name is the one of the present transfer.
+    /// Chooses the program that `read` reads, before every read; an empty name is the one of the present transfer.
     [[nodiscard]] virtual Reason select(std::string_view name) = 0;
     [[nodiscard]] virtual std::uint32_t selectedLength() const = 0;
     /// Fills `out` with the bytes of the selected program from `offset` on; returns how many there were.

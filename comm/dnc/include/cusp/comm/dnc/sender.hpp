@@ -40,6 +40,9 @@ struct SenderOptions {
     /// Replies, but nothing gained for so long: broken link or full memory. Waiting for a drip feed's FIFO is no standstill.
     double standstill_s = 60.0;
     double poll_s = 0.05;
+    /// While the control is busy with another sender (it may be this one, before it was interrupted), it is asked again for
+    /// so long: a little more than the usual lease.
+    double busy_s = 40.0;
     /// After a reset of the control the transfer is opened again by itself so often, as long as nothing was armed.
     unsigned reopen_limit = 3;
     /// Read the program back after COMMIT and compare (store mode).
@@ -132,7 +135,7 @@ private:
     void onOpen(const Acknowledgement& reply, double now_s);
     void onStream(const Acknowledgement& reply, double now_s);
     void onCommand(const Acknowledgement& reply, double now_s);
-    void onCompare(ByteView reply, double now_s);
+    void onCompare(const Acknowledgement& read, ByteView reply, double now_s);
     void onReset(const Acknowledgement& reply, double now_s);
     void afterHello();
     void afterCommit();
@@ -149,6 +152,8 @@ private:
     // The end.
     void finish(TransferEnd end, std::string code, std::string message, bool resumable);
     void abort(std::string code, std::string message, bool resumable = true);
+    /// As `finish`, but first the control is told, so that the next sender finds it free.
+    void close(TransferEnd end, std::string code, std::string message, bool resumable);
     [[nodiscard]] std::string place() const;
 
     Program program_;
@@ -179,6 +184,7 @@ private:
     std::optional<double> timer_s_;
     double last_gain_s_ = 0.0;
     double last_poll_s_ = 0.0;
+    std::optional<double> busy_until_s_;
     bool started_ = false;
 
     unsigned probes_sent_ = 0;
