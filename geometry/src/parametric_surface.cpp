@@ -62,6 +62,7 @@ public:
 
     /// `earlier`, if any, is a guess of the answer.
     [[nodiscard]] Footpoint closest(const Vector3& query, const Footpoint* earlier) const {
+        if (!query.allFinite()) return noFootpoint();
         const Vector3 local = query - origin_;
         if (detail::QuickFoot quick; quick_.find(local, quick)) return footpointOf(quick, local);
         const double limit_squared =

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace cusp::geometry {
@@ -22,6 +23,12 @@ struct Footpoint {
     std::int32_t face = 0;     ///< which face, patch or triangle
     bool on_boundary = false;  ///< nearest at an edge where the shape ends: query − position is not along `normal`
 };
+
+/// What a query that is not finite gets: no number anywhere, face −1.
+[[nodiscard]] inline Footpoint noFootpoint() {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {Vector3::Constant(nan), Vector3::Constant(nan), nan, nan, nan, -1, false};
+}
 
 /// A shape to measure against. Answers are the global minimum, never a local one; all methods may be called from several
 /// threads at once, and give the same bits in each.

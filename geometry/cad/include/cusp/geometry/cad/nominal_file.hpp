@@ -11,8 +11,12 @@
 
 namespace cusp::geometry {
 
-/// The shape in a file, by the ending of its name (in small or capital letters): `.toml` is a surface file.
+/// The shape in a file, by the ending of its name (in small or capital letters): `.toml` is a surface file; `.stl` and
+/// `.ply` are meshes in mm. Warnings (`mesh.open` …) go to `report`.
 /// Errors: `nominal.unknown-format`, and those of the reader.
+[[nodiscard]] base::Result<std::unique_ptr<NominalShape>> loadNominal(const std::string& path,
+                                                                      base::Diagnostics& report);
+/// The same, warnings left aside.
 [[nodiscard]] base::Result<std::unique_ptr<NominalShape>> loadNominal(const std::string& path);
 
 }  // namespace cusp::geometry
