@@ -31,7 +31,7 @@ struct Flags {
     std::string against;
     std::string dialect;
     std::string units;
-    std::string work_offset;
+    std::vector<std::string> work_offsets;
     double tip_tolerance_mm = 0.001;
     double axis_tolerance_deg = 0.001;
     std::optional<double> between_axis_tolerance_deg;
@@ -110,7 +110,6 @@ base::Result<std::optional<machine::SetupDefinition>> readSetup(const Flags& fla
 ExitCode runVerify(const Flags& flags) {
     auto machine = loadMachine(flags.machine);
     if (!machine) return failWith(machine.error());
-    if (!flags.work_offset.empty()) machine->file.control.work_offset = flags.work_offset;
     const auto against = readAgainst(flags);
     if (!against) return failWith(against.error());
     const auto setup = readSetup(flags);
@@ -128,6 +127,7 @@ ExitCode runVerify(const Flags& flags) {
     if (flags.between_axis_tolerance_deg)
         options.between_axis_tolerance_rad = base::radFromDeg(*flags.between_axis_tolerance_deg);
     if (*setup) options.setup = &**setup;
+    options.work_offsets = flags.work_offsets;
     options.cutting_edge = flags.cutting_edge;
     options.fixed_tool_length_axis = flags.fixed_tool_length_axis;
     options.strict = flags.strict;
@@ -158,8 +158,12 @@ void addVerifyCommand(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"nx", "catia", "solidworks", "apt"}));
     verify->add_option("--units", flags->units, "Unit of lengths, when the CL file does not say.")
         ->check(CLI::IsMember({"mm", "inch"}));
-    verify->add_option("--work-offset", flags->work_offset,
-                       "Work offset the program must run in, when not the machine file's.");
+    verify
+        ->add_option("--work-offset", flags->work_offsets,
+                     "Work offsets of the CL file's frames in the order they come in, when not the machine file's and "
+                     "those behind it; several by commas.")
+        ->allow_extra_args(false)
+        ->delimiter(',');
     verify->add_option("--tip-tolerance-mm", flags->tip_tolerance_mm, "Allowed distance of the tip from the CL file.")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);

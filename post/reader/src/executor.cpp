@@ -115,9 +115,9 @@ void Executor::applyCodes(const BlockContent& content) {
         active = code.name;
         if (code.group == group::plane) state_.plane = code.name;
         if (code.group == group::compensation)
-            compensate(code.name == "G41"   ? RadiusCompensation::Left
-                       : code.name == "G42" ? RadiusCompensation::Right
-                                            : RadiusCompensation::Off);
+            state_.compensation = code.name == "G41"   ? RadiusCompensation::Left
+                                  : code.name == "G42" ? RadiusCompensation::Right
+                                                       : RadiusCompensation::Off;
         if (code.group == group::work_offset) {
             state_.work_offset = std::string(code.name);
             place();
@@ -131,12 +131,6 @@ void Executor::applyCodes(const BlockContent& content) {
             state_.feed.value.reset();
         }
     }
-}
-
-void Executor::compensate(RadiusCompensation side) {
-    state_.compensation = side;
-    if (side != RadiusCompensation::Off && transformation_)
-        error("nc.unsupported", "cutter radius compensation under TRAORI is not interpreted");
 }
 
 void Executor::applyFeedAndSpeed(const BlockContent& content) {
@@ -164,7 +158,6 @@ void Executor::applyTransformation(bool on) {
         sink_.event(place_, TransformationSwitch{on});
     }
     transformation_ = on;
-    compensate(state_.compensation);
 }
 
 void Executor::applyTool(const BlockContent& content) {

@@ -31,7 +31,6 @@ public:
 
 private:
     void applyCodes(const BlockContent& content);
-    void compensate(RadiusCompensation side);
     void applyFeedAndSpeed(const BlockContent& content);
     void applyTool(const BlockContent& content);
     void applyTransformation(bool on);
@@ -51,6 +50,7 @@ private:
     void programFrame(const BlockContent& content);
     void changeFrames(const Frame& swivel, const Frame& programmed);
     void swivel(const Swivel& swivel);
+    [[nodiscard]] bool checkCompensation(const ExecutedMotion& motion);
     void warnOfTurnedFrame(const ExecutedMotion& motion);
     void runCycle(const CycleCall& cycle);
     void runCycleStep(const CycleStep& step, std::size_t axis, ModalSnapshot& state);

@@ -15,6 +15,8 @@ namespace {
 
 /// A rotary axis this close to zero is at zero.
 constexpr double zero_rad = 1e-9;
+/// As exactly as printed rotary positions stand the tool across the plane.
+constexpr double across_rad = 1e-6;
 
 }  // namespace
 
@@ -61,9 +63,21 @@ void Executor::move(const BlockContent& content) {
         motion.end_pose = pose(position_);
         placePath(motion);
         if (is_arc && !addArc(content, motion)) return;
+        if (!checkCompensation(motion)) return;
     } else if (is_arc)
         return error("nc.arc", "an arc in machine coordinates is not interpreted");
     hand(motion, state_);
+}
+
+/// G41 and G42 act in the plane. With the tool leaning against it, where the edge goes is for 3D compensation to say.
+bool Executor::checkCompensation(const ExecutedMotion& motion) {
+    if (state_.compensation == RadiusCompensation::Off || !motion.end_pose) return true;
+    const Frame turned = frame();
+    const std::size_t normal = normalOf(active_[group::plane]);
+    const Vector3 across = normal == 0 ? turned.x : normal == 1 ? turned.y : turned.z;
+    if (angleBetween(across, motion.end_pose->axis) < across_rad) return true;
+    error("nc.unsupported", "cutter radius compensation with the tool leaning against the plane is not interpreted");
+    return false;
 }
 
 void Executor::hand(ExecutedMotion& motion, const ModalSnapshot& state) {

@@ -63,7 +63,9 @@ Alignment::Alignment(const MachineFile& machine, const ExpectedPath* expected, c
     process_limits_.cutting_edge = options.cutting_edge;
     if (!options.fixed_tool_length_axis)
         process_limits_.plane = std::abs(spindle[2]) > 0.7 ? "G17" : std::abs(spindle[1]) > 0.7 ? "G18" : "G19";
-    if (options.check_work_offset) process_limits_.work_offset = machine.control.work_offset;
+    if (!options.check_work_offset) return;
+    process_limits_.work_offsets = options.work_offsets;
+    if (options.work_offsets.empty()) process_limits_.work_offsets = {machine.control.work_offset};
 }
 
 void Alignment::event(const reader::BlockPlace& place, const reader::ExecutedEvent& event) {

@@ -11,6 +11,8 @@ namespace cusp::post::verify {
 
 namespace {
 
+/// Frames of one CL file that agree to its last decimals are one.
+constexpr double same_frame = 1e-6;
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
 reader::Vector3 toReader(const geometry::Vector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -107,7 +109,15 @@ public:
         opens_ = true;
     }
     void operator()(const toolpath::OperationStart&) { opens_ = true; }
-    void operator()(const toolpath::ProgrammingFrame&) { opens_ = true; }
+    void operator()(const toolpath::ProgrammingFrame& frame) {
+        opens_ = true;
+        const auto same = [&](const geometry::RigidTransform& other) {
+            return (other.matrix() - frame.part_from_programming.matrix()).cwiseAbs().maxCoeff() < same_frame;
+        };
+        const auto known = std::find_if(frames_.begin(), frames_.end(), same);
+        change().frame = static_cast<std::size_t>(known - frames_.begin());
+        if (known == frames_.end()) frames_.push_back(frame.part_from_programming);
+    }
     void operator()(const toolpath::ProgramStop&) { opens_ = true; }
     void operator()(const toolpath::Remark&) {}
     void operator()(const toolpath::Dwell&) {}
@@ -147,6 +157,7 @@ private:
     bool process_changed_ = true;
     bool opens_ = true;
     reader::Vector3 tip_mm_;
+    std::vector<geometry::RigidTransform> frames_;
     toolpath::CycleStart cycle_;
     std::optional<toolpath::FeedRate> modal_feed_;
 };

@@ -20,6 +20,8 @@ struct ExpectedProcess {
     std::optional<double> rpm;  ///< absent when the CL file gives none, or a cutting speed
     std::optional<toolpath::CoolantCommand::Kind> coolant;
     toolpath::CutterCompensation::Side compensation = toolpath::CutterCompensation::Side::Off;
+    /// Which programming frame the points are in, in the order these come in.
+    std::size_t frame = 0;
     std::optional<std::int64_t> tool_number;
     std::string tool_name;
 };

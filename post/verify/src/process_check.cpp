@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace cusp::post::verify {
@@ -163,9 +164,23 @@ std::string compensationProblem(const ModalSnapshot& state, const ExpectedProces
                        compensationName(wanted));
 }
 
+/// G54 to G57, then G505 to G599; nothing behind.
+std::string nextSettableFrame(const std::string& name) {
+    const int number = std::atoi(name.c_str() + 1);
+    const bool last = number == 599 || number < 54;
+    return last ? std::string() : fmt::format("G{}", number == 57 ? 505 : number + 1);
+}
+
+std::string wantedOffset(const std::vector<std::string>& names, std::size_t frame) {
+    if (frame < names.size()) return names[frame];
+    std::string name = names.empty() ? std::string() : names.back();
+    for (std::size_t i = names.size(); i <= frame && !name.empty(); ++i) name = nextSettableFrame(name);
+    return name;
+}
+
 std::string offsetProblem(const ModalSnapshot& state, const std::string& wanted) {
     if (wanted.empty() || state.work_offset == wanted || (wanted == "G500" && state.work_offset.empty())) return {};
-    return fmt::format("runs in {}, the machine file's work offset is {}",
+    return fmt::format("runs in {}, the work offset of the CL file's frame is {}",
                        state.work_offset.empty() ? "no work offset" : state.work_offset, wanted);
 }
 
@@ -194,7 +209,8 @@ void checkProcess(const reader::ExecutedMotion& motion, const ExpectedProcess& e
             ? std::string()
             : "under G41 and G42 it is the programmed contour that is compared; the tool's own path is the control's");
     report(Severity::Error, "verify.coolant", coolantProblem(state, expected));
-    report(Severity::Error, "verify.work-offset", offsetProblem(state, limits.work_offset));
+    report(Severity::Error, "verify.work-offset",
+           offsetProblem(state, wantedOffset(limits.work_offsets, expected.frame)));
 }
 
 }  // namespace cusp::post::verify

@@ -8,6 +8,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cusp::post::verify {
 
@@ -15,8 +16,10 @@ struct ProcessLimits {
     double feed_tolerance = 0.0;
     double speed_tolerance_rpm = 0.0;
     int cutting_edge = 1;
-    std::string_view plane;   ///< perpendicular to the spindle; empty: not checked
-    std::string work_offset;  ///< empty: not checked
+    std::string_view plane;  ///< perpendicular to the spindle; empty: not checked
+    /// Of the programming frames in the order they come in; those behind the last are the next settable frames. Empty: not
+    /// checked.
+    std::vector<std::string> work_offsets;
 };
 
 /// For feed motions: rapids may run before the spindle is up.

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace cusp::post::verify::test {
 namespace {
 
@@ -56,7 +58,71 @@ TEST(Process, EachDifferenceInWords) {
     EXPECT_EQ(errorTexts(verifyHead("G54 T7 M6 D0\nS1000 M3 M8 F600")),
               "line 4: the tool length is not applied (D0) in a feed move (CL line 4)\n");
     EXPECT_EQ(errorTexts(verifyHead("G55 T7 M6\nS1000 M3 M8 F600")),
-              "line 4: runs in G55, the machine file's work offset is G54 (CL line 4)\n");
+              "line 4: runs in G55, the work offset of the CL file's frame is G54 (CL line 4)\n");
+}
+
+TEST(Process, TheCuttingEdge) {
+    EXPECT_EQ(errorTexts(verifyHead("G54 T7 M6 D2\nS1000 M3 M8 F600")),
+              "line 4: the tool is applied with D2, expected is D1 (CL line 4)\n");
+    VerifyOptions options;
+    options.cutting_edge = 2;
+    EXPECT_EQ(errorTexts(verify("G54 T7 M6 D2\nS1000 M3 M8 F600\nG0 X0 Y0 Z0\nG1 X10\nX20\nM30\n", pathWithTool(),
+                                shippedMachine("three-axis"), options)),
+              "");
+}
+
+/// Under CUTCOM the contour is compared, and the report says so.
+TEST(Process, CutterCompensation) {
+    ToolPath path = pathWithTool();
+    const auto motion = std::find_if(path.records.begin(), path.records.end(), [](const ClRecord& record) {
+        const auto* linear = std::get_if<LinearMotion>(&record.statement);
+        return linear != nullptr && linear->kind == MotionKind::Feed;
+    });
+    path.records.insert(motion, {CutterCompensation{CutterCompensation::Side::Left, std::nullopt}, 3});
+    const auto with = [&](const std::string& code) {
+        return verify("G54 T7 M6\nS1000 M3 M8 F600\nG0 X0 Y0 Z0\n" + code + " G1 X10\nX20\nG40\nM30\n", path,
+                      shippedMachine("three-axis"));
+    };
+    const VerifyReport left = with("G41");
+    EXPECT_TRUE(left.pass);
+    ASSERT_EQ(left.findings.size(), 1U);
+    EXPECT_EQ(left.findings.front().code, "verify.contour");
+    EXPECT_EQ(errorTexts(with("G42")),
+              "line 4: cutter compensation is right (G42), the CL file has it left (G41) (CL line 4)\n");
+    EXPECT_EQ(errorTexts(with("")), "line 4: cutter compensation is off, the CL file has it left (G41) (CL line 4)\n");
+}
+
+/// Points are in the frame of their MSYS; each frame has a work offset of its own.
+TEST(Process, EachFrameOfTheClFileHasItsWorkOffset) {
+    ToolPath path;
+    std::uint32_t line = 0;
+    const auto record = [&](ClStatement statement) { path.records.push_back({std::move(statement), ++line}); };
+    record(SpindleCommand{SpindleCommand::Turn::Clockwise, 1000.0, SpindleCommand::Unit::Rpm});
+    record(FeedRate{10.0, FeedRate::Unit::MmPerS});
+    for (const double x : {0.0, 100.0, 0.0}) {
+        ProgrammingFrame frame;
+        frame.part_from_programming.translation().x() = x;
+        record(frame);
+        for (const double end : {0.0, 10.0}) {
+            LinearMotion motion;
+            motion.location.tip_mm = {end, 0.0, 0.0};
+            motion.kind = end == 0.0 ? MotionKind::Rapid : MotionKind::Feed;
+            record(motion);
+        }
+    }
+    const auto run = [&](const std::string& second, const std::string& third, std::vector<std::string> names = {}) {
+        const std::string cut = " G0 X0 Y0 Z0\nG1 X10 F600\n";
+        VerifyOptions options;
+        options.work_offsets = std::move(names);
+        return errorTexts(verify("S1000 M3\nG54" + cut + second + cut + third + cut + "M30\n", path,
+                                 shippedMachine("three-axis"), options));
+    };
+    EXPECT_EQ(run("G55", "G54"), "");
+    EXPECT_EQ(run("G54", "G54"), "line 5: runs in G54, the work offset of the CL file's frame is G55 (CL line 8)\n");
+    EXPECT_EQ(run("G55", "G56"), "line 7: runs in G56, the work offset of the CL file's frame is G54 (CL line 11)\n");
+    EXPECT_EQ(run("G505", "G54", {"G54", "G505"}), "");
+    EXPECT_EQ(run("G55", "G54", {"G54", "G505"}),
+              "line 5: runs in G55, the work offset of the CL file's frame is G505 (CL line 8)\n");
 }
 
 TEST(Process, ADifferenceThatLastsIsSaidOnceAndAgainWhenItReturns) {

@@ -16,6 +16,7 @@
 #include <istream>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cusp::post::verify {
 
@@ -38,8 +39,10 @@ struct VerifyOptions {
     int cutting_edge = 1;
     /// The machine keeps the tool length along the spindle whatever the plane (SD42940): G18 and G19 are then no finding.
     bool fixed_tool_length_axis = false;
-    /// The cutting blocks must run in the work offset the machine file names.
+    /// The cutting blocks of each programming frame of the CL file must run in a work offset of their own: those named
+    /// here in the order the frames come in (none: the machine file's), and then the next settable frames.
     bool check_work_offset = true;
+    std::vector<std::string> work_offsets;
     /// From the gauge point to the tip, of every tool: places the tip where rotary axes are away from zero without TRAORI.
     std::optional<double> tool_length_mm;
     /// Origin of the work offset in the machine frame, all axes at zero: needed as well where a rotary axis carries the
