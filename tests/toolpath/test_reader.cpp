@@ -57,8 +57,10 @@ TEST(End, OfAPathOfTheProgramAndOfTheFile) {
               "4: warning: text behind the end of the program is not read: 'Y43e' [cl.after-end]\n");
     EXPECT_EQ(readOut(good + "GOTO/4,5,6\nGOTO/4,5,6\n").problems,
               "4: error: GOTO behind the end of the program is not read [cl.after-end]\n");
-    EXPECT_EQ(readOut("UNITS/MM\nGOTO/1,2,3\n").problems,
-              "2: warning: the file ends without FINI, END or END-OF-PATH: it may have been cut short [cl.no-end]\n");
+    EXPECT_EQ(
+        readOut("UNITS/MM\nGOTO/1,2,3\n").problems,
+        "2: error: the file ends without FINI, END or END-OF-PATH: it has been cut short; if it is whole, add FINI "
+        "[cl.no-end]\n");
 }
 
 TEST(End, WithoutMotionOrInsideAStatement) {
@@ -182,8 +184,11 @@ TEST(WholePath, ReadsAFileOrSaysWhyNot) {
     EXPECT_EQ(base::toText(missing.error().front()),
               "/no/such/P.apt: error: cannot open the file: No such file or directory [io.open]");
 
-    std::istringstream unending("UNITS/MM\nGOTO/1,2,3\n");
-    EXPECT_TRUE(readToolPath(unending, "P.apt", {}, warnings).has_value());
+    std::istringstream cut_short("UNITS/MM\nGOTO/1,2,3\n");
+    EXPECT_FALSE(readToolPath(cut_short, "P.apt", {}, warnings).has_value());
+
+    std::istringstream odd("UNITS/MM\nODD/1\nGOTO/1,2,3\nFINI\n");
+    EXPECT_TRUE(readToolPath(odd, "P.apt", {}, warnings).has_value());
     EXPECT_EQ(warnings.warningCount(), 1U);
 }
 

@@ -181,7 +181,9 @@ void ClReader::State::endOfInput(StatementSplitter::Status status) {
         if (context.path_ended && !context.program_ended) {
             context.emit(ProgramEnd{});
         } else if (!context.program_ended && context.motion_seen) {
-            context.warning("cl.no-end", "the file ends without FINI, END or END-OF-PATH: it may have been cut short");
+            context.error(
+                "cl.no-end",
+                "the file ends without FINI, END or END-OF-PATH: it has been cut short; if it is whole, add FINI");
         }
     }
     finish();
