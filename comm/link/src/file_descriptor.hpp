@@ -60,7 +60,7 @@ struct Listening {
 /// Waits until the descriptor is readable (or writable, when `writable`), at most `timeout_s`.
 void waitFor(int descriptor, bool writable, double timeout_s);
 
-/// What is there to be read, up to 64 kB; nothing when the other end has closed or failed.
+/// What is there to be read, up to 64 kB; nothing when the other end has closed or failed and all it said was read.
 [[nodiscard]] std::optional<Bytes> readSome(int descriptor);
 /// Writes what goes without waiting and removes it from `pending`; false when the other end has closed or failed.
 [[nodiscard]] bool writeSome(int descriptor, Bytes& pending);

@@ -17,7 +17,9 @@ namespace {
 constexpr int mapped_registers = 0x0400;
 constexpr std::size_t area_registers = 0x0100;
 constexpr std::size_t tcp_header_bytes = 7;
-constexpr std::size_t most_incoming_bytes = 16 * 1024;
+constexpr std::size_t most_incoming_bytes = std::size_t{64} * 1024;
+/// Of one client before the others have their turn.
+constexpr int most_reads = 4;
 }  // namespace
 
 base::Result<ModbusResponder> ModbusResponder::make(ModbusContext context, RequestHandler& handler) {
@@ -62,21 +64,30 @@ base::Result<void> ModbusTcpServer::step(double timeout_s) {
     const double ms = std::clamp(timeout_s, 0.0, 3600.0) * 1000.0;
     static_cast<void>(::poll(waiting.data(), waiting.size(), static_cast<int>(ms)));
     while (auto client = acceptAllowed(listening_, options_)) {
+        // Those that are gone already do not keep a new one out.
+        if (clients_.size() >= options_.max_clients) serveAll();
         if (clients_.size() < options_.max_clients) clients_.push_back({*std::move(client), {}, steadySeconds()});
     }
-    for (auto client = clients_.begin(); client != clients_.end();)
-        client = serve(*client) ? std::next(client) : clients_.erase(client);
+    serveAll();
     // The descriptors are the clients': libmodbus would close the one it was lent.
     ::modbus_set_socket(responder_.context(), -1);
     return {};
 }
 
+void ModbusTcpServer::serveAll() {
+    for (auto client = clients_.begin(); client != clients_.end();)
+        client = serve(*client) ? std::next(client) : clients_.erase(client);
+}
+
 bool ModbusTcpServer::serve(Client& client) {
-    const auto bytes = readSome(client.descriptor.get());
-    if (!bytes) return false;
     const double now_s = steadySeconds();
-    if (!bytes->empty()) client.seen_s = now_s;
-    append(client.incoming, *bytes);
+    for (int reads = 0; reads < most_reads; ++reads) {
+        const auto bytes = readSome(client.descriptor.get());
+        if (!bytes) return false;
+        if (bytes->empty()) break;
+        client.seen_s = now_s;
+        append(client.incoming, *bytes);
+    }
     std::size_t used = 0;
     ::modbus_set_socket(responder_.context(), client.descriptor.get());
     while (const auto size = modbusTcpFrameBytes(ByteView(client.incoming).subspan(used))) {

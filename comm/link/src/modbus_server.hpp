@@ -47,6 +47,7 @@ private:
         Bytes incoming;
         double seen_s = 0.0;
     };
+    void serveAll();
     [[nodiscard]] bool serve(Client& client);
 
     Listening listening_;

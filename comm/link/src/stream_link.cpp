@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t most_message_bytes = std::size_t{16} * 1024;
 constexpr std::size_t tcp_request_bytes = 4096 + 64;
 constexpr std::size_t tcp_pending_bytes = std::size_t{32} * 1024;
+/// Of one client before the others have their turn.
+constexpr int most_reads = 4;
 /// Replies a client does not fetch.
 constexpr std::size_t most_pending_bytes = std::size_t{256} * 1024;
 
@@ -86,6 +88,8 @@ StreamServer::StreamServer(FileDescriptor device, LinkUrl url, RequestHandler& h
 void StreamServer::acceptAll() {
     if (!listening_) return;
     while (auto client = acceptAllowed(*listening_, options_)) {
+        // Those that are gone already do not keep a new one out.
+        if (clients_.size() >= options_.max_clients) serveAll();
         if (clients_.size() >= options_.max_clients) continue;
         clients_.push_back({*std::move(client), StreamDeframer(most_message_bytes), {}, steadySeconds()});
     }
@@ -102,10 +106,11 @@ void StreamServer::wait(double timeout_s) {
 }
 
 bool StreamServer::serve(Client& client) {
-    const auto bytes = readSome(client.descriptor.get());
-    if (!bytes) return false;
     const double now_s = steadySeconds();
-    if (!bytes->empty()) {
+    for (int reads = 0; reads < most_reads; ++reads) {
+        const auto bytes = readSome(client.descriptor.get());
+        if (!bytes) return false;
+        if (bytes->empty()) break;
         client.seen_s = now_s;
         client.deframer.push(*bytes);
     }
@@ -117,11 +122,15 @@ bool StreamServer::serve(Client& client) {
     return !listening_ || (client.pending.size() <= most_pending_bytes && now_s - client.seen_s <= options_.idle_s);
 }
 
+void StreamServer::serveAll() {
+    for (auto client = clients_.begin(); client != clients_.end();)
+        client = serve(*client) ? std::next(client) : clients_.erase(client);
+}
+
 base::Result<void> StreamServer::step(double timeout_s) {
     wait(timeout_s);
     acceptAll();
-    for (auto client = clients_.begin(); client != clients_.end();)
-        client = serve(*client) ? std::next(client) : clients_.erase(client);
+    serveAll();
     if (!listening_ && clients_.empty())
         return base::fail("io.link-lost", "the serial device is gone", {name_, 0, 0, {}});
     return {};

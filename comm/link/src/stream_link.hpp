@@ -53,6 +53,7 @@ private:
     };
 
     void acceptAll();
+    void serveAll();
     /// False when the client is to be dropped.
     [[nodiscard]] bool serve(Client& client);
     void wait(double timeout_s);

@@ -24,7 +24,6 @@ namespace cusp::comm {
 namespace {
 
 constexpr int connect_timeout_ms = 5000;
-constexpr int backlog = 64;
 
 struct FreeAddresses {
     void operator()(addrinfo* addresses) const { ::freeaddrinfo(addresses); }
@@ -175,7 +174,7 @@ base::Result<Listening> listenTcp(const LinkUrl& url, const ListenOptions& optio
     const int on = 1;
     ::setsockopt(out.socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (::bind(out.socket.get(), address->ai_addr, address->ai_addrlen) != 0 ||
-        ::listen(out.socket.get(), backlog) != 0)
+        ::listen(out.socket.get(), SOMAXCONN) != 0)
         return failOpen(url.text, errno);
     socklen_t size = sizeof bound;
     ::getsockname(out.socket.get(), reinterpret_cast<sockaddr*>(&bound), &size);

@@ -9,9 +9,8 @@
 #include <cusp/comm/link/transports.hpp>
 
 #include <atomic>
-#include <gtest/gtest.h>
 #include <memory>
-#include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -22,8 +21,7 @@ public:
     explicit ServedControl(const std::string& url, ListenOptions listen = {}, ReceiverOptions options = {})
         : receiver_(std::move(options), host, 4711), service_(receiver_) {
         auto server = openServer(parseLinkUrl(url).value(), service_, listen);
-        EXPECT_TRUE(server.has_value()) << (server ? "" : base::toText(server.error()));
-        if (!server) return;
+        if (!server) throw std::runtime_error(base::toText(server.error()));
         server_ = *std::move(server);
         name_ = server_->name();
         thread_ = std::thread([this] {

@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <deque>
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <list>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <stdexcept>
 #include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
@@ -21,6 +21,10 @@
 namespace cusp::comm::test {
 
 namespace {
+
+void require(bool done) {
+    if (!done) throw std::runtime_error("the bridge of the tests could not be set up");
+}
 
 double clockSeconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -110,11 +114,11 @@ sockaddr_in loopback(std::uint16_t port) {
 PtyBridge::PtyBridge(BridgeFaults faults, std::uint64_t seed) {
     for (int end = 0; end < 2; ++end) {
         masters_[end] = ::posix_openpt(O_RDWR | O_NOCTTY);
-        EXPECT_GE(masters_[end], 0);
-        EXPECT_EQ(::grantpt(masters_[end]), 0);
-        EXPECT_EQ(::unlockpt(masters_[end]), 0);
+        require(masters_[end] >= 0);
+        require(::grantpt(masters_[end]) == 0);
+        require(::unlockpt(masters_[end]) == 0);
         char name[128] = {};
-        EXPECT_EQ(::ptsname_r(masters_[end], name, sizeof name), 0);
+        require(::ptsname_r(masters_[end], name, sizeof name) == 0);
         paths_[end] = name;
         keepers_[end] = ::open(name, O_RDWR | O_NOCTTY);
         makeRaw(keepers_[end]);
@@ -151,8 +155,8 @@ PtyBridge::~PtyBridge() {
 TcpBridge::TcpBridge(std::uint16_t target_port, BridgeFaults faults, std::uint64_t seed)
     : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
     sockaddr_in address = loopback(0);
-    EXPECT_EQ(::bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    EXPECT_EQ(::listen(listener_, 32), 0);
+    require(::bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0);
+    require(::listen(listener_, 32) == 0);
     socklen_t size = sizeof address;
     ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
     port_ = ntohs(address.sin_port);
