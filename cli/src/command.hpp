@@ -17,6 +17,7 @@ namespace cusp::cli {
 using Action = std::function<ExitCode()>;
 
 void addEvaluateCommand(CLI::App& app, Action& action);
+void addCapabilityCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);

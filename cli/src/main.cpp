@@ -27,6 +27,7 @@ ExitCode run(int argc, char** argv) {
     addEvaluateCommand(app, action);
     addTextureCommand(app, action);
     addSendCommand(app, action);
+    addCapabilityCommand(app, action);
     addMachineCommand(app, action);
     addSchemaCommand(app, action);
     try {

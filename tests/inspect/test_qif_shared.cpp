@@ -123,12 +123,20 @@ TEST_F(QifFiles, CapabilityOfTwentyPlatesIsThatOfAnIndependentComputation) {
     const auto series = capabilityOf({&results, 1});
     ASSERT_TRUE(series.has_value()) << base::toText(series.error());
     ASSERT_EQ(series->size(), expected.size());
+    std::size_t beyond = 0;
     for (const CapabilitySeries& one : *series) {
+        beyond += one.beyond_limits;
         const auto known = expected.find(one.name + "|" + one.feature);
         ASSERT_NE(known, expected.end()) << one.name << " of " << one.feature;
         SCOPED_TRACE(known->first);
         expectIndices(one, known->second);
     }
+    // Who measured the plates judged them too.
+    std::size_t failed = 0;
+    for (const QifMeasurement& measured : results.measurements)
+        if (measured.status == "FAIL") ++failed;
+    EXPECT_EQ(failed, 51U);
+    EXPECT_EQ(beyond, failed);
 }
 
 TEST_F(QifFiles, PointSetsAndUnitsAreRead) {

@@ -160,3 +160,30 @@ export function textureSample({ points = 6000, seed = 3 } = {}) {
         }],
     };
 }
+
+/** Three characteristics over 24 parts as `cusp capability` writes them: one capable, one drifting out, one without limits. */
+export function capabilitySample({ parts = 24, seed = 11 } = {}) {
+    const random = new Random(seed);
+    const order = Array.from({ length: parts }, (_, i) => i);
+    const make = (name, lower, upper, value, trend_probability) => {
+        const values_mm = order.map(value);
+        const { mean_mm, standard_deviation_mm: s, min_mm, max_mm } = statistics(values_mm);
+        const near = lower === null ? null : Math.min(upper - mean_mm, mean_mm - lower) / (3 * s);
+        return {
+            name, kind: "Diameter", feature: "BORE", target_mm: 10, lower_mm: lower, upper_mm: upper, count: parts, mean_mm, min_mm, max_mm,
+            overall_deviation_mm: s, within_deviation_mm: s, cp: lower === null ? null : (upper - lower) / (6 * s), cpk: near,
+            pp: lower === null ? null : (upper - lower) / (6 * s), ppk: near, beyond_limits: values_mm.filter((v) => lower !== null && (v < lower || v > upper)).length,
+            slope_mm_per_part: 0.001, trend_probability, out_of_control: [], values_mm, parts: order,
+        };
+    };
+    return {
+        schema: 1, command: "capability", version: "0.1.0",
+        files: [{ file: "/parts/results.qif", qif_version: "3.0.0", parts, measurements: 3 * parts, without_value: 0 }],
+        parts: order.map((i) => `part ${i + 1}`),
+        characteristics: [
+            make("GOOD", 9.9, 10.1, () => 10 + 0.015 * random.normal(), 0.4),
+            make("DRIFTING", 9.9, 10.1, (i) => 9.98 + 0.006 * i + 0.01 * random.normal(), 0.0001),
+            make("FREE", null, null, () => 10 + 0.01 * random.normal(), 0.7),
+        ],
+    };
+}

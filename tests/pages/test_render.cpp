@@ -65,7 +65,9 @@ TEST(RenderPage, ADocumentCannotEndItsElement) {
 TEST(RenderPage, NamesThePagesThereAre) {
     const auto html = renderPage("inspektion", "{}");
     ASSERT_FALSE(html.has_value());
-    EXPECT_TRUE(base::toText(html.error()).starts_with("error: there is no page 'inspektion'; there are: inspection"));
+    EXPECT_EQ(base::toText(html.error()),
+              "error: there is no page 'inspektion'; there are: capability, inspection, texture "
+              "[pages.unknown-page]\n");
     EXPECT_EQ(html.error().front().code, "pages.unknown-page");
 }
 
