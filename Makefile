@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # A thin wrapper: each target is a few lines one can as well type. The presets are in CMakePresets.json.
 .DEFAULT_GOAL := help
-.PHONY: help deps build demo test test-parsers test-fuzz bench fuzz format lint docs clean
+.PHONY: help deps build demo test test-parsers test-threads test-fuzz bench fuzz format lint docs clean
 SHELL := /bin/bash
 
 JOBS := $(shell nproc)
 # Rooms whose tests also run under the sanitizers in `make test`: those that read what strangers wrote.
-PARSER_ROOMS := base toolpath kinematics post
+PARSER_ROOMS := base geometry toolpath kinematics post inspect comm
+# Rooms whose threads the thread sanitizer watches: those without TBB, of which it reports races that are none.
+THREAD_ROOMS := comm
 # What `make demo` posts: the example path, and a real CL file where the folder of real files lies beside the project.
 CL ?= examples/benchmark/surface_finish.cls $(wildcard ../shared/data/cl/nx_variable_axis.cls)
 # Seconds `make fuzz` spends on each fuzzer.
@@ -29,9 +31,10 @@ demo: ## Install what is absent, build, and turn CL files (CL=…) into proven 8
 	cmake --build --preset release --target cusp_cli -j$(JOBS)
 	scripts/demo.sh build/release/bin/cusp out/demo $(CL)
 
-test: ## Install what is absent, then all tests: parsers under sanitizers, fuzz smoke, and the whole suite last
+test: ## Install what is absent, then all tests: readers and threads under sanitizers, fuzz smoke, the whole suite last
 	$(MAKE) --no-print-directory deps
 	$(MAKE) --no-print-directory test-parsers
+	$(MAKE) --no-print-directory test-threads
 	$(MAKE) --no-print-directory test-fuzz
 	$(MAKE) --no-print-directory build
 	ctest --preset release -j$(JOBS)
@@ -40,6 +43,11 @@ test-parsers: ## The tests of the parsers under the address and undefined-behavi
 	cmake --preset asan-ubsan
 	cmake --build --preset asan-ubsan --target $(PARSER_ROOMS:%=tests_%) -j$(JOBS)
 	ctest --preset asan-ubsan -L '^($(subst $(eval ) ,|,$(PARSER_ROOMS)))$$' -j$(JOBS)
+
+test-threads: ## The tests of what runs in threads of its own under the thread sanitizer
+	cmake --preset tsan
+	cmake --build --preset tsan --target $(THREAD_ROOMS:%=tests_%) -j$(JOBS)
+	ctest --preset tsan -L '^($(subst $(eval ) ,|,$(THREAD_ROOMS)))$$' -j$(JOBS)
 
 test-fuzz: ## A short run of every fuzzer, from fixed seeds
 	@if command -v clang++-19 >/dev/null; then set -ex; \
