@@ -51,6 +51,61 @@ TEST_F(VerifyCommand, AlteredProgramsFail) {
     EXPECT_NE(verify(altered(" G1 ", " G0 ")).exit_code, 0) << "rapid through material";
 }
 
+/// Every key docs/json.md names.
+TEST_F(VerifyCommand, TheKeysOfItsJson) {
+    const auto outcome = verify(program, {"--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    const auto json = nlohmann::json::parse(outcome.output);
+    for (const char* key : {"pass",
+                            "points",
+                            "matched",
+                            "missed",
+                            "blocks",
+                            "motions",
+                            "intermediate",
+                            "links",
+                            "excursions",
+                            "extra",
+                            "max_tip_error_mm",
+                            "max_axis_error_deg",
+                            "max_tip_between_mm",
+                            "max_axis_between_deg",
+                            "max_tip_between_rapid_mm",
+                            "max_axis_between_rapid_deg",
+                            "where",
+                            "limit_violations",
+                            "rotary_limits",
+                            "linear_travel",
+                            "against",
+                            "diagnostics"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_EQ(json["where"].size(), 6U);
+    EXPECT_EQ(json["linear_travel"], "not checked");
+}
+
+TEST_F(VerifyCommand, ASetupChecksTheLinearTravel) {
+    const auto in = [&](double z_mm) {
+        const std::string setup =
+            write("setup.toml", "schema = 1\nname = \"plate\"\n[work_offset.G54]\norigin_mm = [1000.0, 0.0, " +
+                                    std::to_string(z_mm) + "]\n[[tool]]\nname = \"BALL_6\"\nlength_mm = 120.0\n");
+        return verify(program, {"--setup", setup, "--json"});
+    };
+    const auto kept = in(-900.0);
+    ASSERT_EQ(kept.exit_code, 0) << kept.errors << kept.output;
+    EXPECT_EQ(nlohmann::json::parse(kept.output)["linear_travel"], "checked");
+    const auto beyond = in(-100.0);
+    EXPECT_EQ(beyond.exit_code, 1);
+    EXPECT_GT(nlohmann::json::parse(beyond.output)["limit_violations"], 0);
+    EXPECT_NE(beyond.errors.find("axis Z is at "), std::string::npos) << beyond.errors;
+}
+
+TEST_F(VerifyCommand, TheCuttingEdgeAndTheWorkOffsetAreTheUsers) {
+    const std::string other = altered(" D1", " D2");
+    EXPECT_EQ(verify(other).exit_code, 1);
+    EXPECT_EQ(verify(other, {"--cutting-edge", "2"}).exit_code, 0);
+    EXPECT_EQ(verify(altered(" G54", " G55"), {"--work-offset", "G55"}).exit_code, 1) << "only one of them is altered";
+}
+
 TEST_F(VerifyCommand, AMisspelledTransformationIsNamed) {
     const auto outcome = verify(altered("TRAFOOF", "TRAOOF"));
     EXPECT_EQ(outcome.exit_code, 3);

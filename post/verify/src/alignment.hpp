@@ -64,6 +64,7 @@ private:
     [[nodiscard]] bool continuesExcursion(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool restsAt(const reader::ExecutedMotion& motion, const reader::Vector3& tip_mm) const;
     void abandonExcursion();
+    void checkOffThePart(const reader::ExecutedMotion& motion);
     void meet(const reader::ExecutedMotion& motion, std::size_t index);
     void passPointsAlreadyMet();
     void link();

@@ -31,6 +31,7 @@ bool Alignment::beginsExcursion(const ExecutedMotion& motion) {
     if (along < least_way_mm || reader::norm(way - along * at_->axis) > tolerance_.tip_mm) return false;
     if (reader::angleBetween(motion.end_pose->axis, at_->axis) > tolerance_.axis_rad) return false;
     excursion_ = Excursion{motion.place, *at_, motion.end_pose->tip_mm, false};
+    checkOffThePart(motion);
     return true;
 }
 
@@ -41,6 +42,7 @@ bool Alignment::continuesExcursion(const ExecutedMotion& motion) {
     Excursion& excursion = *excursion_;
     if (isStraight(motion) && restsAt(motion, excursion.off_mm)) {
         excursion.turned = excursion.turned || reader::rotaryTravel(motion) > still_rad;
+        checkOffThePart(motion);
         return true;
     }
     const bool back = isStraight(motion) && excursion.turned && reader::rotaryTravel(motion) <= still_rad &&
@@ -53,9 +55,19 @@ bool Alignment::continuesExcursion(const ExecutedMotion& motion) {
     if (motion.code == reader::MotionCode::Rapid)
         findings_.error("verify.kind", motion.place, "a rapid (G0) back onto the path: a cut is taken up at feed");
     ++report_.excursions;
+    checkOffThePart(motion);
     at_ = motion.end_pose;
     excursion_.reset();
     return true;
+}
+
+/// All but the feed, of which an excursion has its own.
+void Alignment::checkOffThePart(const ExecutedMotion& motion) {
+    if (done() || motion.code == reader::MotionCode::Rapid) return;
+    const ExpectedPoint& point = expected_->points[next_];
+    ExpectedProcess process = expected_->processes[point.process];
+    process.feed.reset();
+    checkProcess(motion, process, point.line, process_limits_, findings_);
 }
 
 /// Whether the tip stays where it is all the way.

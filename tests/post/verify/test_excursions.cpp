@@ -52,6 +52,11 @@ TEST(Excursions, MustComeBackToTheSamePlace) {
     EXPECT_EQ(errorTexts(verifySteps("G1 X4\nZ50 F5000\nTRAFOOF\nSUPA G0 Z0 D0\n")).substr(0, away.size()), away);
 }
 
+TEST(Excursions, TheSpindleKeepsTurning) {
+    EXPECT_EQ(errorTexts(verifySteps(std::string("G1 X4\nZ50 F5000\nG0 C180 M5\nG1 Z0 F300\nM3 F600 ") + rest)),
+              "line 13: the spindle is off in a feed move, the CL file has it clockwise (M3) (CL line 4)\n");
+}
+
 TEST(Excursions, LeaveAlongTheToolAxis) {
     EXPECT_NE(errorTexts(verifySteps(std::string("G1 X4\nX4.1 Z50 F5000\nG0 C180\nG1 X4 Z0\nF600 ") + rest)), "");
     EXPECT_NE(errorTexts(verifySteps(std::string("G1 X4\nZ-50 F5000\nG0 C180\nG1 Z0\nF600 ") + rest)), "");
