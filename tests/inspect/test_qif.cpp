@@ -6,6 +6,7 @@
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/random.hpp>
 #include <cusp/inspect/capability.hpp>
+#include <cusp/inspect/point_reader.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +83,25 @@ TEST(QifWriter, ComesInPiecesAndStopsWhenItCannotWrite) {
     EXPECT_EQ(done.error().front().code, "io.write");
     EXPECT_EQ(calls, 3U);
     EXPECT_LT(largest, 70'000U);
+}
+
+TEST(QifWriter, IsReadAsMeasuredPoints) {
+    const InspectionReport report = test::qifReport(3000, Verdict::Accept);
+    std::istringstream in(test::qifText(report));
+    base::Diagnostics remarks;
+    PointReaderOptions options;
+    options.block_bytes = 1000;
+    const auto points = readMeasuredPoints(in, "part.qif", options, remarks);
+    ASSERT_TRUE(points.has_value()) << base::toText(points.error());
+    EXPECT_EQ(points->format, "qif");
+    EXPECT_EQ(points->kind, PointKind::Surface);
+    EXPECT_TRUE(points->unit_stated);
+    ASSERT_EQ(points->size(), 2999U);
+    EXPECT_LT((points->positions[17] - report.best_fit.deviations[17].surfacePoint()).norm(), 1e-9);
+    std::istringstream none("<QIFDocument versionQIF=\"3.0.0\"/>");
+    const auto absent = readMeasuredPoints(none, "none.qif", {}, remarks);
+    ASSERT_FALSE(absent.has_value());
+    EXPECT_EQ(base::toText(absent.error()), "none.qif: error: the file holds no point [points.empty]\n");
 }
 
 /// A document with one diameter, measured on the parts as given; `unit` is the factor to metres.

@@ -14,5 +14,6 @@ void readPcDmis(ByteSource& source, PointCollector& out);
 void readCalypso(ByteSource& source, const PointReaderOptions& options, PointCollector& out);
 void readPcd(ByteSource& source, PointCollector& out);
 void readPly(ByteSource& source, PointCollector& out);
+void readQifPoints(ByteSource& source, PointCollector& out);
 
 }  // namespace cusp::inspect

@@ -21,7 +21,7 @@ std::string formatOf(std::string_view head) {
     const std::string_view begin = trimmed(std::string_view(text).substr(0, 200));
     if (text.starts_with("ply\n") || text.starts_with("ply\r")) return "ply";
     if (contains(text, "\nfields ") && contains(text, "\ndata ")) return "pcd";
-    if (begin.starts_with('<')) return "xml";
+    if (begin.starts_with('<')) return contains(text, "qifdocument") ? "qif" : "xml";
     if (contains(text, "actl/") || contains(text, "theo/") || (contains(text, "dim ") && contains(text, "outtol")))
         return "pc-dmis";
     if (contains(text, "=feat/") || contains(text, "ptdata/") || contains(text, "dmismn/") ||
@@ -59,6 +59,8 @@ base::Result<MeasuredPoints> readMeasuredPoints(std::istream& in, const std::str
         readPcd(source, out);
     else if (format == "ply")
         readPly(source, out);
+    else if (format == "qif")
+        readQifPoints(source, out);
     else
         out.error("points.format", fmt::format("the format {} holds no points that are read here", quoted(format)));
     return out.finish();

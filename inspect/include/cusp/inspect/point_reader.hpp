@@ -14,7 +14,7 @@
 namespace cusp::inspect {
 
 struct PointReaderOptions {
-    /// "table" (CSV, XYZ, ASC), "dmis", "pc-dmis", "calypso", "pcd", "ply"; empty: found from the text.
+    /// "table" (CSV, XYZ, ASC), "dmis", "pc-dmis", "calypso", "pcd", "ply", "qif"; empty: found from the text.
     std::string format{};
     /// Columns of a table in their order, e.g. "id,x,y,z,i,j,k,section,-"; empty: from the header, or from the numbers.
     std::string columns{};
@@ -32,7 +32,7 @@ struct PointReaderOptions {
 /// `report` (columns not used, duplicates, points without coordinates in a cloud, statements that say no point).
 ///
 /// Errors, each with its line: `points.empty`, `points.format`, `points.header`, `points.columns`, `points.number`,
-/// `points.ambiguous-comma`, `points.unit`, `points.truncated`; all problems of a table are reported at once.
+/// `points.ambiguous-comma`, `points.unit`, `points.truncated`, of QIF those of `readQif`; all problems of a table are reported at once.
 [[nodiscard]] base::Result<MeasuredPoints> readMeasuredPoints(std::istream& in, const std::string& name,
                                                               const PointReaderOptions& options,
                                                               base::Diagnostics& report);
