@@ -6,6 +6,7 @@
 #include <cusp/base/random.hpp>
 #include <cusp/inspect/texture_filter.hpp>
 #include <cusp/inspect/texture_report.hpp>
+#include <cusp/inspect/texture_section.hpp>
 
 #include <Eigen/Dense>
 
@@ -200,6 +201,28 @@ TEST(Form, DoesNotSwallowScallops) {
     EXPECT_NEAR(scallops->mean_spacing_mm, 4.9, 0.03);
     EXPECT_NEAR(scallops->mean_height_mm, 0.004, 0.0004);
     EXPECT_NEAR(scallops->planned_count, 102.0 / 4.9, 1e-12);
+}
+
+TEST(Section, IsFormAndScallopsOverIt) {
+    std::vector<double> arc;
+    std::vector<double> deviation;
+    for (int i = 0; i < 205; ++i) {
+        arc.push_back(0.5 * i);
+        const double t = 2.0 * i / 204.0 - 1.0;
+        deviation.push_back(0.006 * t * t + 0.004 * std::abs(std::sin(pi * arc.back() / 4.9)));
+    }
+    const auto section = evaluateSection(arc, deviation, 4.9);
+    ASSERT_TRUE(section.has_value());
+    EXPECT_GE(section->form.order, 2);
+    const base::Json json = toJson(*section, 4.9);
+    EXPECT_EQ(json["scallops"]["count"], 20);
+    EXPECT_NEAR(json["scallops"]["mean_height_mm"].get<double>(), 0.004, 0.0004);
+    EXPECT_EQ(json["note"], "");
+    // Too coarse for the plan: the form stays, and the reason is told.
+    const auto coarse = evaluateSection(arc, deviation, 1.0);
+    ASSERT_TRUE(coarse.has_value());
+    EXPECT_TRUE(toJson(*coarse, 1.0)["scallops"].is_null());
+    EXPECT_EQ(coarse->note, "points lie 0.5 mm apart; scallops of a step-over of 1 mm need 0.25 mm");
 }
 
 TEST(Scallops, NeedPointsEnough) {
