@@ -24,7 +24,7 @@ constexpr double limit_slack_rad = 1e-9;
 constexpr double travel_slack_mm = 1e-4;
 /// Between looks at the linear axes while rotary ones turn: of a lever of 0.5 m, 0.02 mm may go unseen.
 constexpr double travel_step_rad = base::radFromDeg(1.0);
-constexpr double most_looks = 720.0;
+constexpr int most_looks = 720;
 
 }  // namespace
 
@@ -51,9 +51,9 @@ void Alignment::checkReach(const ExecutedMotion& motion) {
     if (!motion.vector_programmed && !on_circle) return;
     const double way = on_circle ? reader::angleBetween(motion.start_pose->axis, motion.end_pose->axis) : 0.0;
     if (!motion.vector_programmed && way < same_axis_rad) return;
-    const double count = std::max(1.0, std::ceil(way / reach_step_rad));
-    for (double sample = 1.0; sample <= count; sample += 1.0) {
-        const double fraction = sample / count;
+    const int count = stepsFor(way / reach_step_rad, most_looks);
+    for (int sample = 1; sample <= count; ++sample) {
+        const double fraction = static_cast<double>(sample) / count;
         const reader::Vector3 axis =
             on_circle ? reader::onGreatCircle(motion.start_pose->axis, motion.end_pose->axis, fraction)
                       : motion.end_pose->axis;
@@ -92,9 +92,9 @@ void Alignment::checkTravel(const ExecutedMotion& motion) {
     const double turns = motion.start_pose ? reader::rotaryTravel(motion) : 0.0;
     const bool arc = motion.arc && motion.start_pose;
     const double way = std::max(turns, arc ? std::abs(motion.arc->sweep_rad) : 0.0);
-    const double looks = std::clamp(std::ceil(way / travel_step_rad), 1.0, most_looks);
-    for (double look = 1.0; look <= looks; look += 1.0) {
-        const double fraction = look / looks;
+    const int looks = stepsFor(way / travel_step_rad, most_looks);
+    for (int look = 1; look <= looks; ++look) {
+        const double fraction = static_cast<double>(look) / looks;
         reader::RotaryValues rotary{};
         for (std::size_t i = 0; i < chain_.rotaryCount(); ++i) rotary[i] = from[i] + fraction * (to[i] - from[i]);
         const reader::Vector3 tip =

@@ -18,7 +18,7 @@ using reader::Vector3;
 constexpr double unseen_mm = 5e-5;
 constexpr double unseen_rad = 1e-5;
 /// Reached by turns of many revolutions only; what then may go unseen is counted as seen.
-constexpr double most_samples = 5000.0;
+constexpr int most_samples = 5000;
 
 struct Projection {
     double fraction = 0.0;
@@ -78,10 +78,10 @@ PoseError strayBetween(const reader::ExecutedMotion& motion, const reader::Forwa
     bend.axis_rad += turn * turn;
     if (move.arc != nullptr) bend.tip_mm += part * part * move.arc->bend();
     const double wanted = std::sqrt(std::max(bend.tip_mm / (8.0 * unseen_mm), bend.axis_rad / (8.0 * unseen_rad)));
-    const double count = std::clamp(std::ceil(wanted), 1.0, most_samples);
+    const int count = stepsFor(wanted, most_samples);
     PoseError worst;
-    for (double sample = 0.0; sample <= count; sample += 1.0) {
-        const double fraction = sample / count;
+    for (int sample = 0; sample <= count; ++sample) {
+        const double fraction = static_cast<double>(sample) / count;
         const reader::ToolPose pose = reader::poseAt(motion, chain, fraction);
         const double along = from + fraction * (to - from);
         const double off = move.arc != nullptr ? reader::norm(pose.tip_mm - move.arc->at(along))
@@ -91,7 +91,7 @@ PoseError strayBetween(const reader::ExecutedMotion& motion, const reader::Forwa
             std::max(worst.axis_rad,
                      reader::angleBetween(pose.axis, reader::onGreatCircle(move.from.axis, move.to.axis, along)));
     }
-    if (wanted > most_samples) {
+    if (count == most_samples) {
         worst.tip_mm += bend.tip_mm / (8.0 * count * count);
         worst.axis_rad += bend.axis_rad / (8.0 * count * count);
     }

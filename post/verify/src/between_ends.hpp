@@ -8,6 +8,8 @@
 #include <cusp/post/reader/executed_program.hpp>
 #include <cusp/post/reader/forward_chain.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace cusp::post::verify {
@@ -36,6 +38,11 @@ struct ExpectedMove {
     /// Where `pose` lies on the move, 0 to 1, when tip and axis both lie on it within tolerance, and at one place of it.
     [[nodiscard]] std::optional<double> fractionOf(const reader::ToolPose& pose, const Tolerance& tolerance) const;
 };
+
+/// Whole steps, at least one; `most` where more are wanted, or no number.
+[[nodiscard]] inline int stepsFor(double wanted, int most) {
+    return wanted < most ? std::max(1, static_cast<int>(std::ceil(wanted))) : most;
+}
 
 /// Largest departures from `move` of a block that runs from fraction `from` to fraction `to` of it, its ends included,
 /// sampled as the control interpolates and so densely that no more than 0.05 µm and 0.0006° can go unseen. The tip is held
