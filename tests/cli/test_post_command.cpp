@@ -177,5 +177,23 @@ TEST_F(PostCommand, ASetupMakesLinearTravelKnown) {
               (std::vector<std::string>{"A.MPF", "low.toml", "part.cls", "setup.toml", "tools.toml", "unknown.toml"}));
 }
 
+TEST_F(PostCommand, ANurbsCurveIsRefusedByName) {
+    const std::string cl =
+        write("part.cls", "TOOL PATH/OP1,TOOL,BALL_6\nTLDATA/MILL,6.,3.,50.,0.,0.\nFEDRAT/MMPM,250.\n"
+                          "SPINDL/RPM,100,CLW\nGOTO/0,0,0,0,0,1\nNURBS/3\nKNOT/0,0,1,1\nCNTRL/0,0,0\n"
+                          "CNTRL/1,0,0\nGOTO/1,0,0\nEND-OF-PATH\n");
+    const auto posted = run({"post", cl, "-m", "fooke-endura-ca", "-o", path("P.MPF")});
+    EXPECT_EQ(posted.exit_code, 3);
+    EXPECT_NE(posted.errors.find("part.cls:6: error: a NURBS curve cannot be posted: export the operation with linear "
+                                 "or circular moves [post.nurbs]\n"),
+              std::string::npos)
+        << posted.errors;
+    const std::string program = write("OLD.MPF", "G54 G90\nM30\n");
+    const auto verified = run({"verify", program, "-m", "fooke-endura-ca", "--against", cl});
+    EXPECT_EQ(verified.exit_code, 3);
+    EXPECT_NE(verified.errors.find("part.cls:6: error: a NURBS curve is not compared with programs"), std::string::npos)
+        << verified.errors;
+}
+
 }  // namespace
 }  // namespace cusp::cli

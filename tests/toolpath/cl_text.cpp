@@ -50,6 +50,14 @@ struct Printer {
     }
     std::string operator()(const HoleLocation& h) const { return "hole " + textOf(h.location); }
     std::string operator()(const CycleEnd& /*end*/) const { return "cycle end"; }
+    std::string operator()(const SplineMotion& s) const {
+        std::string text = fmt::format("spline {} knots {}", fmt::join(s.parameters, " "), fmt::join(s.knots, " "));
+        for (const auto& control : s.controls) text += fmt::format(" control {}", fmt::join(control, " "));
+        return text;
+    }
+    std::string operator()(const PathTolerance& t) const {
+        return fmt::format("tolerance {} {}", t.outside ? "outside" : "inside", t.value_mm);
+    }
     std::string operator()(const CutterCompensation& c) const {
         constexpr const char* sides[] = {"off", "left", "right"};
         return fmt::format("compensation {}{}", sides[static_cast<int>(c.side)],

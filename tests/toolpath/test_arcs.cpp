@@ -72,8 +72,60 @@ TEST(Circle, RefusesWhatIsNoArc) {
               "2: error: CIRCLE takes 6 to 7 values (centre, axis, radius …), not 8 [cl.arc]\n");
     EXPECT_EQ(problemsOf("GOTO/2,0,0\nCIRCLE/0,0,0,0,0,2,2"),
               "2: error: CIRCLE: the axis 0,0,2 has length 2; it must be 1 [cl.axis]\n");
-    EXPECT_EQ(problemsOf("NURBS/3"),
-              "1: error: NURBS is not read: post the operation with linear or circular moves [cl.nurbs]\n");
+}
+
+TEST(Movarc, IsRightHandedAboutItsAxisAndTurnsAsItSays) {
+    const std::string quarter = "1 go 2 0 0 axis 0 0 1\n2 arc 0 2 0 axis 0 0 1 center 0 0 0 normal 0 0 1 radius 2\n";
+    EXPECT_EQ(recordsOf("GOTO/2,0,0\nMOVARC/0,0,0,0,0,1,2,ANGLE,90\nGOTO/0,2,0"), quarter);
+    EXPECT_EQ(recordsOf("GOTO/2,0,0\nMOVARC/0,0,0,0,0,1,2\nGOTO/0,2,0"), quarter);
+    EXPECT_EQ(recordsOf("GOTO/2,0,0\nMOVARC/ CENTER, 0, 0, 0, AXIS, 0, 0, 1, RADIUS, 2\nGOTO/0,2,0"), quarter);
+    EXPECT_EQ(recordsOf("GOTO/2,0,0\nMOVARC/0,0,0,0,0,-1,2,ANGLE,270.\nGOTO/0,2,0"),
+              "1 go 2 0 0 axis 0 0 1\n2 arc 0 2 0 axis 0 0 1 center 0 0 0 normal 0 0 -1 radius 2\n");
+    EXPECT_EQ(recordsOf("GOTO/2,0,0\nMOVARC/0,0,0,0,0,1,2,ANGLE,360\nGOTO/2,0,0"),
+              "1 go 2 0 0 axis 0 0 1\n2 arc 2 0 0 axis 0 0 1 center 0 0 0 normal 0 0 1 radius 2 full\n");
+    EXPECT_EQ(readOut("UNITS/INCHES\nGOTO/2,0,0\nMOVARC/0,0,0,0,0,1,2,ANGLE,90\nGOTO/0,2,0\nFINI\n").text,
+              "2 go 50.8 0 0 axis 0 0 1\n3 arc 0 50.8 0 axis 0 0 1 center 0 0 0 normal 0 0 1 radius 50.8\n5 end\n");
+}
+
+TEST(Movarc, RefusesWhatDoesNotFit) {
+    // A post that leaves the axis up on clockwise arcs would be read the wrong way round without its angle.
+    EXPECT_EQ(problemsOf("GOTO/2,0,0\nMOVARC/0,0,0,0,0,1,2,ANGLE,90\nGOTO/0,-2,0"),
+              "2: error: MOVARC: the angle is 90 degrees, but from its start to its end the arc turns by 270 about its "
+              "axis [cl.arc]\n");
+    EXPECT_EQ(
+        problemsOf("GOTO/2,0,0\nMOVARC/0,0,0,0,0,1,2,ANGLE,720\nGOTO/2,0,-4"),
+        "2: error: MOVARC: the angle is 720 degrees, but from its start to its end the arc turns by 360 about its "
+        "axis [cl.arc]\n");
+    const std::string not_understood = " is not understood; centre, axis, radius and ANGLE are [cl.arc]\n";
+    for (const std::string body : {"0,0,0,0,0,1", "0,0,0,0,0,1,2,3", "0,0,0,0,0,1,2,ANGLE", "0,0,0,0,0,1,2,TIMES,3",
+                                   "AXIS,0,0,0,0,0,1,2", "", "CENTER,0,0,0,AXIS,0,0,1,RADIUS"}) {
+        EXPECT_EQ(problemsOf("GOTO/2,0,0\nMOVARC/" + body), "2: error: MOVARC/" + body + not_understood);
+    }
+    EXPECT_EQ(problemsOf("GOTO/2,0,0\nMOVARC/0,0,0,0,0,1,2"),
+              "2: error: MOVARC is not followed by a GOTO that says where the arc ends [cl.arc]\n");
+}
+
+TEST(Nurbs, IsKeptAsItsNumbers) {
+    const ReadOut out = readOut("TOOL PATH/A,TOOL,B\nFEDRAT/MMPM,250.\nGOTO/0,0,0,0,0,1\nNURBS/3,4\nKNOT/0,0,0,0\n"
+                                "KNOT/1.,1.,$\n1.,1.\nCNTRL/0,0,0,1\n$$ a comment\nCNTRL/1,2,0,1\nCNTRL/2,2,0,1\n"
+                                "CNTRL/3,0,0,1\nGOTO/4,0,0\nEND-OF-PATH\n");
+    EXPECT_EQ(out.problems, "");
+    EXPECT_EQ(out.text,
+              "1 operation 'A'\n2 feed 4.166666666666667 mm/s\n3 tool - 'B'\n3 go 0 0 0 axis 0 0 1\n"
+              "4 spline 3 4 knots 0 0 0 0 1 1 1 1 control 0 0 0 1 control 1 2 0 1 control 2 2 0 1 control 3 0 0 1\n"
+              "13 go 4 0 0 axis 0 0 1\n14 end\n");
+}
+
+TEST(Nurbs, RefusesWhatIsNotWhole) {
+    EXPECT_EQ(problemsOf("NURBS/3"), "1: error: NURBS is not followed by its CNTRL statements [cl.nurbs]\n");
+    EXPECT_EQ(problemsOf("GOTO/0,0,0\nKNOT/0,1"), "2: error: KNOT without a NURBS before it [cl.nurbs]\n");
+    EXPECT_EQ(problemsOf("NURBS/3\nCNTRL/0,x,0"),
+              "2: error: CNTRL: 'x' is not a number [cl.number]\n"
+              "1: error: NURBS is not followed by its CNTRL statements [cl.nurbs]\n");
+    EXPECT_EQ(problemsOf("NURBS/3,,4"), "1: error: NURBS: '' is not a number [cl.number]\n");
+    // Where the curve ends is not known.
+    EXPECT_EQ(problemsOf("NURBS/3\nCNTRL/0,0,0\nGODLTA/1,0,0"),
+              "3: error: GODLTA: where the tool stands is not known: no GOTO or FROM before it [cl.start-unknown]\n");
 }
 
 /// CATIA's form, as in a turning program of its own, but milling.

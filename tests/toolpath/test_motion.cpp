@@ -138,8 +138,8 @@ TEST(Gohome, LeavesForAnUnknownPlace) {
 }
 
 TEST(UnsupportedMotion, IsAlwaysAnError) {
-    for (const std::string word : {"COPY/1", "MOVARC/0,0,0", "ORIGIN/0,0,0", "ROTABL/90", "SYN/'A','B'",
-                                   "TLRGT,GOFWD/C1", "TRANS/1,2,3", "TRACUT/M1"}) {
+    for (const std::string word :
+         {"COPY/1", "ORIGIN/0,0,5", "ROTABL/90", "SYN/'A','B'", "TLRGT,GOFWD/C1", "TRANS/1,2,3", "TRACUT/M1"}) {
         EXPECT_EQ(
             problemsOf("PPRINT x\n" + word),
             "2: error: " + word.substr(0, word.find_first_of("/,")) +

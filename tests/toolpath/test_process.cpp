@@ -43,6 +43,13 @@ TEST(Spindl, AllForms) {
               "1 spindle counter-clockwise 500 rpm\n2 spindle off\n3 spindle counter-clockwise\n");
 }
 
+TEST(Spindl, TheGearRangeIsLeftToTheMachine) {
+    EXPECT_EQ(
+        recordsOf("SPINDL/RPM,500,CLW,RANGE,2"),
+        "1 spindle clockwise 500 rpm\n1: warning: SPINDL: the gear range 2 is left to the machine [cl.spindle]\n");
+    EXPECT_EQ(problemsOf("SPINDL/500,RANGE"), "1: error: SPINDL: 'RANGE' is not understood [cl.spindle]\n");
+}
+
 TEST(Spindl, RefusesTheRest) {
     EXPECT_EQ(problemsOf("SPINDL/ORIENT,90"), "1: error: SPINDL: 'ORIENT' is not understood [cl.spindle]\n");
     EXPECT_EQ(problemsOf("SPINDL/"), "1: error: SPINDL/ is not understood [cl.spindle]\n");
@@ -53,6 +60,9 @@ TEST(Spindl, RefusesTheRest) {
 TEST(Coolnt, AllForms) {
     EXPECT_EQ(recordsOf("COOLNT/ON\nCOOLNT/FLOOD\nCOOLNT/MIST\nCOOLNT/THRU\nCOOLNT/OFF"),
               "1 coolant flood\n2 coolant flood\n3 coolant mist\n4 coolant through\n5 coolant off\n");
+    EXPECT_EQ(recordsOf("COOLNT/ON,FLOOD\nCOOLNT/MIST,ON"), "1 coolant flood\n2 coolant mist\n");
+    EXPECT_EQ(problemsOf("COOLNT/OFF,ON"),
+              "1: warning: COOLNT/OFF,ON is not understood; the coolant stays as it is [cl.coolant]\n");
     EXPECT_EQ(problemsOf("COOLNT/"),
               "1: warning: COOLNT/ is not understood; the coolant stays as it is [cl.coolant]\n");
     ClReaderOptions strict;
@@ -64,6 +74,10 @@ TEST(Coolnt, AllForms) {
 TEST(Delay, SecondsOrRevolutions) {
     EXPECT_EQ(recordsOf("DELAY/ 2.5"), "1 dwell 2.5 s\n");
     EXPECT_EQ(recordsOf("SPINDL/600,RPM\nDELAY/5,REV"), "1 spindle clockwise 600 rpm\n2 dwell 0.5 s\n");
+    EXPECT_EQ(recordsOf("SPINDL/600,RPM\nDELAY/REV,5"), "1 spindle clockwise 600 rpm\n2 dwell 0.5 s\n");
+    EXPECT_EQ(recordsOf("DELAY/3,SEC\nDELAY/SEC,4"), "1 dwell 3 s\n2 dwell 4 s\n");
+    EXPECT_EQ(problemsOf("DELAY/3,MIN"),
+              "1: error: DELAY/3,MIN is not understood; seconds, or revolutions with REV, are [cl.delay]\n");
     EXPECT_EQ(problemsOf("DELAY/5,REV"),
               "1: error: DELAY in revolutions, but no spindle speed in RPM holds here [cl.delay]\n");
     EXPECT_EQ(problemsOf("DELAY/-1"),
@@ -79,7 +93,25 @@ TEST(Remark, TakesTheLineAsItStands) {
         "5 insert ''\n");
 }
 
-TEST(NoMeaning, IsPassedOverInSilence) { EXPECT_EQ(recordsOf("PAINT/COLOR,42\nINTOL / .01\nOUTTOL/0\nREWIND/0"), ""); }
+TEST(Tolerance, IsKept) {
+    EXPECT_EQ(recordsOf("INTOL / .01\nOUTTOL/0"), "1 tolerance inside 0.01\n2 tolerance outside 0\n");
+    EXPECT_EQ(readOut("UNITS/INCHES\nOUTTOL/.001\nGOTO/0,0,0\nFINI").text,
+              "2 tolerance outside 0.0254\n3 go 0 0 0 axis 0 0 1\n4 end\n");
+    EXPECT_EQ(problemsOf("INTOL/x"), "1: warning: INTOL/x is not understood and is passed over [cl.tolerance]\n");
+    EXPECT_EQ(problemsOf("OUTTOL/-1"), "1: warning: OUTTOL/-1 is not understood and is passed over [cl.tolerance]\n");
+}
+
+TEST(NoMeaning, IsPassedOverInSilence) {
+    EXPECT_EQ(recordsOf("PAINT/COLOR,42\nREWIND/0\nDISPLY/ON\nSEQNO/10,INCR,10\nSET/MODE,ABSOL\nTRANS/0,0,0\n"
+                        "ORIGIN/ 0., 0., 0."),
+              "");
+    const std::string elsewhere = " is not yet read; without it the tool would go elsewhere than the file says "
+                                  "[cl.unsupported-motion]\n";
+    EXPECT_EQ(problemsOf("TRANS/0,0,1"), "1: error: TRANS" + elsewhere);
+    EXPECT_EQ(problemsOf("ORIGIN/1,0,0"), "1: error: ORIGIN" + elsewhere);
+    EXPECT_EQ(problemsOf("TRANS/"), "1: error: TRANS" + elsewhere);
+    EXPECT_EQ(problemsOf("SET/MODE,INCR"), "1: error: SET/MODE,INCR" + elsewhere);
+}
 
 }  // namespace
 }  // namespace cusp::toolpath::test

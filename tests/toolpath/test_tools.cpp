@@ -48,11 +48,37 @@ TEST(NxTool, TaperAndPointPlaceTheCornerCircle) {
     EXPECT_NEAR(to_flank, 2.0, 1e-12);
 }
 
+TEST(NxTool, CornerCirclesThatAreGivenAndDrills) {
+    const auto cutterOf = [](const std::string& data) {
+        const ReadOut out = readOut("TOOL PATH/A,TOOL,X\nTLDATA/" + data + "\nGOTO/0,0,0\n" + nx_end);
+        EXPECT_EQ(out.problems, "");
+        return std::get<ToolCall>(out.records[1].statement).cutter.value();
+    };
+    const geometry::Cutter mill = cutterOf("MILL,10.,2.,50.,0.,0.,2.5,2.25");
+    EXPECT_EQ(mill.corner_radius_mm, 2.0);
+    EXPECT_EQ(mill.corner_e_mm, 2.5);
+    EXPECT_EQ(mill.corner_f_mm, 2.25);
+    // Without an upper circle, ten values are seven.
+    EXPECT_EQ(cutterOf("MILL,10.,2.,50.,0.,0.,3.,2.,0.,0.,0.").corner_e_mm, 3.0);
+    const geometry::Cutter drill = cutterOf("DRILL,MILL,8.,0.,80.,118.,35.");
+    EXPECT_EQ(drill.diameter_mm, 8.0);
+    EXPECT_EQ(drill.cutting_height_mm, 35.0);
+    EXPECT_NEAR(drill.point_angle_rad, 31.0 * std::numbers::pi / 180.0, 1e-15);
+    // The sharp edge lies where the cone meets the flank.
+    EXPECT_NEAR(drill.corner_e_mm, 4.0, 1e-12);
+    EXPECT_NEAR(drill.corner_f_mm, 4.0 * std::tan(31.0 * std::numbers::pi / 180.0), 1e-12);
+    EXPECT_NE(readOut("TOOL PATH/A,TOOL,X\nTLDATA/MILL,10.,2.,50.,0.,0.,3.,2.,100.,90.,5.\nGOTO/0,0,0\n" + nx_end)
+                  .problems.find("[cl.tool-shape]"),
+              std::string::npos);
+    EXPECT_EQ(readOut("TOOL PATH/A,TOOL,X\nTLDATA/MILL,10.,x,50.,0.,0.\nGOTO/0,0,0\n" + nx_end).problems,
+              "2: error: TLDATA: 'x' is not a number [cl.number]\n");
+}
+
 TEST(NxTool, ShapesThatAreNotUnderstoodAreReported) {
     const ReadOut out = readOut("TOOL PATH/A,TOOL,X\nTLDATA/DRILL,MILL,5.,0.\nGOTO/0,0,0\n" + nx_end);
     EXPECT_EQ(out.problems,
-              "2: warning: TLDATA/DRILL,MILL,5.,0.: only MILL with 5 values is understood; the tool is called "
-              "without its shape [cl.tool-shape]\n");
+              "2: warning: TLDATA/DRILL,MILL,5.,0.: only MILL with 5 or 7 values and DRILL with 5 are understood; "
+              "the tool is called without its shape [cl.tool-shape]\n");
     EXPECT_EQ(readOut("TOOL PATH/A\nGOTO/0,0,0\n" + nx_end).problems,
               "1: error: TOOL PATH/operation,TOOL,name is expected [cl.syntax]\n");
 }

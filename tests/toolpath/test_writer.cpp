@@ -169,7 +169,7 @@ private:
         add(command);
     }
     void step() {
-        switch (random_.below(cycle_on_ ? 14 : 18)) {
+        switch (random_.below(cycle_on_ ? 15 : 19)) {
             case 0: add(feed()); break;
             case 1: spindle(); break;
             case 2: add(CoolantCommand{static_cast<CoolantCommand::Kind>(random_.below(4))}); break;
@@ -191,6 +191,7 @@ private:
                 add(HomeReturn{});
                 at_tip_ = false;
                 break;
+            case 14: add(PathTolerance{random_.chance(0.5), std::abs(number(0.1))}); break;
             default:
                 if (at_tip_ && random_.chance(0.5)) {
                     arc();

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// Arcs: CIRCLE before its end GOTO, CATIA's INDIRV and TLON, and the NURBS that are refused.
+// Arcs: CIRCLE and MOVARC before their end GOTO, CATIA's INDIRV and TLON.
 #include "statement_table.hpp"
+
+#include <cusp/base/units.hpp>
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -66,6 +68,27 @@ bool isPossible(ReaderContext& context, const OpenArc& arc, const CutterLocation
     return true;
 }
 
+/// Whether the arc turns by the angle its statement says; reports it when not. A statement whose axis points the other way
+/// would say so here.
+bool turnsAsStated(ReaderContext& context, const OpenArc& arc, const OnArc& start, const OnArc& end, double radius_mm,
+                   bool full_circle) {
+    if (!arc.sweep_rad) {
+        return true;
+    }
+    const double sweep_rad = full_circle ? full_turn_rad : sweepRad(start.radial, end.radial, arc.normal);
+    // Angles are printed with a few decimals.
+    constexpr double printed_rad = base::radFromDeg(0.01);
+    if (std::abs(sweep_rad - *arc.sweep_rad) <= printed_rad + 2.0 * arc_tolerance_mm / radius_mm) {
+        return true;
+    }
+    arcError(
+        context, arc.line,
+        fmt::format("{}: the angle is {:.6g} degrees, but from its start to its end the arc turns by {:.6g} about its "
+                    "axis",
+                    arc.word, base::degFromRad(*arc.sweep_rad), base::degFromRad(sweep_rad)));
+    return false;
+}
+
 /// One whole turn: the end is printed as the start is, or rounding put it a little before the start.
 bool isFullCircle(const OnArc& start, const OnArc& end, const Vector3& normal) {
     constexpr double same_place_mm = 1e-9;
@@ -91,9 +114,10 @@ void makeArc(ReaderContext& context, const OpenArc& arc, const CutterLocation& e
         if (context.rapid) {
             context.warning("cl.rapid-cancelled", "RAPID before an arc: the arc is made at the feed");
         }
-        context.records.push_back(
-            {ArcMotion{end, center_mm, arc.normal, radius_mm, isFullCircle(start_seen, end_seen, arc.normal)},
-             arc.line});
+        const bool full_circle = isFullCircle(start_seen, end_seen, arc.normal);
+        if (turnsAsStated(context, arc, start_seen, end_seen, radius_mm, full_circle)) {
+            context.records.push_back({ArcMotion{end, center_mm, arc.normal, radius_mm, full_circle}, arc.line});
+        }
     }
     context.rapid = false;
     context.motion_seen = true;
@@ -230,6 +254,52 @@ void handleCircle(ReaderContext& context, std::string_view word, std::string_vie
     context.arc = arc;
 }
 
+void handleMovarc(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    std::array<double, 7> v{};
+    std::optional<double> angle_deg;
+    std::size_t count = 0;
+    bool understood = !fields.truncated();
+    for (std::size_t i = 0; i < fields.size() && understood; ++i) {
+        const Field& field = fields[i];
+        const bool number_follows = i + 1 < fields.size() && fields[i + 1].is_number;
+        if (field.is_number) {
+            understood = count < v.size();
+            v[std::min(count++, v.size() - 1)] = field.number;
+        } else if (field.is("ANGLE") && number_follows && count == v.size()) {
+            angle_deg = fields[++i].number;
+        } else {
+            // The words that may stand before centre, axis and radius.
+            understood = number_follows && ((field.is("CENTER") && count == 0) || (field.is("AXIS") && count == 3) ||
+                                            (field.is("RADIUS") && count == 6));
+        }
+    }
+    if (!understood || count != v.size()) {
+        context.error("cl.arc",
+                      fmt::format("{}/{} is not understood; centre, axis, radius and ANGLE are", word, quoted(body)));
+        return;
+    }
+    const std::optional<Vector3> axis = unitAxis(context, word, &v[3]);
+    if (!axis) {
+        return;
+    }
+    if (context.cycle_on) {
+        context.error("cl.arc", fmt::format("{} while a cycle is on is not understood", word));
+        return;
+    }
+    abandonArc(context);
+    OpenArc arc;
+    arc.word = "MOVARC";
+    arc.line = context.line;
+    arc.center_mm = Vector3(v[0], v[1], v[2]) * context.mm_per_unit;
+    arc.normal = *axis;
+    arc.radius_mm = v[6] * context.mm_per_unit;
+    if (angle_deg) {
+        arc.sweep_rad = base::radFromDeg(*angle_deg);
+    }
+    context.arc = arc;
+}
+
 void completeArc(ReaderContext& context, const CutterLocation& end) {
     const OpenArc arc = *context.arc;
     context.arc.reset();
@@ -281,13 +351,9 @@ void handleTlon(ReaderContext& context, std::string_view word, std::string_view 
     context.requireUnit();
     context.settleTool();
     if (const std::optional<Vector3> end = endOfDrivenArc(context, *driven, normal)) {
-        makeArc(context, {"TLON", context.line, driven->center_mm, normal, driven->radius_mm}, {*end, context.axis});
+        makeArc(context, {"TLON", context.line, driven->center_mm, normal, driven->radius_mm, std::nullopt},
+                {*end, context.axis});
     }
-}
-
-void handleNurbs(ReaderContext& context, std::string_view word, std::string_view /*body*/) {
-    // No description and no sample of the statement is at hand; the curve must not be guessed from its numbers.
-    context.error("cl.nurbs", fmt::format("{} is not read: post the operation with linear or circular moves", word));
 }
 
 }  // namespace cusp::toolpath::detail

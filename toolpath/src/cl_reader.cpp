@@ -133,6 +133,7 @@ void ClReader::State::dispatch(const Statement& statement) {
         afterEnd(head, statement.text);
         return;
     }
+    finishSpline(context, head.word());
     const StatementEntry* const entry = findStatement(head.word(), context.dialect->dialect);
     if (entry == nullptr) {
         unknownStatement(context, head, statement.text);
@@ -178,6 +179,7 @@ void ClReader::State::endOfInput(StatementSplitter::Status status) {
     if (!context.stopped) {
         finishFrame(context);
         abandonArc(context);
+        finishSpline(context, {});
         if (context.path_ended && !context.program_ended) {
             context.emit(ProgramEnd{});
         } else if (!context.program_ended && context.motion_seen) {

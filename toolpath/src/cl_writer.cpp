@@ -182,6 +182,8 @@ struct ClWriter::State {
     void take(const Dwell& dwell) { line("DELAY/", dwell.seconds); }
     void take(const CycleStart& cycle);
     void take(const CycleEnd&) { line("CYCLE/OFF"); }
+    void take(const SplineMotion&) { refuse("a NURBS curve cannot be written: what its numbers mean is not known"); }
+    void take(const PathTolerance& tolerance) { line(tolerance.outside ? "OUTTOL/" : "INTOL/", tolerance.value_mm); }
     void take(const CutterCompensation& command) {
         constexpr std::array<const char*, 3> sides{"OFF", "LEFT", "RIGHT"};
         line("CUTCOM/", sides.at(static_cast<std::size_t>(command.side)),

@@ -5,6 +5,7 @@
 #include "number_scan.hpp"
 #include "statement_table.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -159,6 +160,24 @@ void handleCsys(ReaderContext& context, std::string_view word, std::string_view 
     context.emit(WorkPlane{transformOf(*rotation, geometry::Vector3(v[3], v[7], v[11]) * context.mm_per_unit)});
     context.declared_axis = rotation->col(2);
     context.axis = context.declared_axis;
+}
+
+void handleShift(ReaderContext& context, std::string_view word, std::string_view body) {
+    // Whatever a system means by it, by nothing at all nothing is shifted.
+    const Fields fields(body);
+    const bool nothing = !fields.empty() && !fields.truncated() &&
+                         std::all_of(fields.begin(), fields.end(),
+                                     [](const Field& field) { return field.is_number && field.number == 0.0; });
+    if (!nothing) {
+        unsupportedMotion(context, word, body);
+    }
+}
+
+void handleSet(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    if (fields.size() != 2 || !fields[0].is("MODE") || !fields[1].is("ABSOL")) {
+        unsupportedMotion(context, fmt::format("{}/{}", word, quoted(body)), body);
+    }
 }
 
 void handleTrntyp(ReaderContext& context, std::string_view word, std::string_view body) {

@@ -80,9 +80,13 @@ void handleSpindl(ReaderContext& context, std::string_view word, std::string_vie
     double factor = 1.0;
     bool off = false;
     std::optional<SpindleCommand::Turn> turn;
+    const Field* gear = nullptr;  ///< the word RANGE; its value comes next
     const Fields fields(body);
     for (const Field& field : fields) {
-        if (field.is_number && !speed) {
+        if (gear != nullptr && gear == &field - 1) {
+            context.warning("cl.spindle",
+                            fmt::format("{}: the gear range {} is left to the machine", word, quoted(field.text)));
+        } else if (field.is_number && !speed) {
             speed = field.number;
         } else if (field.is("RPM") || field.is("ON")) {
         } else if (field.is("SFM") || field.is("SMM")) {
@@ -92,6 +96,8 @@ void handleSpindl(ReaderContext& context, std::string_view word, std::string_vie
             turn = field.is("CLW") ? SpindleCommand::Turn::Clockwise : SpindleCommand::Turn::CounterClockwise;
         } else if (field.is("OFF")) {
             off = true;
+        } else if (field.is("RANGE") && gear == nullptr && &field + 1 != fields.end()) {
+            gear = &field;
         } else {
             context.error("cl.spindle", fmt::format("{}: '{}' is not understood", word, quoted(field.text)));
             return;
@@ -115,9 +121,11 @@ void handleCoolnt(ReaderContext& context, std::string_view word, std::string_vie
     using Kind = CoolantCommand::Kind;
     const Fields fields(body);
     std::optional<Kind> kind;
-    if (fields.size() == 1) {
-        const Field& field = fields[0];
-        if (field.is("OFF")) {
+    // FLOOD,ON and ON,FLOOD say the same as FLOOD.
+    const bool with_on = fields.size() == 2 && (fields[0].is("ON") || fields[1].is("ON"));
+    if (fields.size() == 1 || with_on) {
+        const Field& field = fields[with_on && fields[0].is("ON") ? 1 : 0];
+        if (field.is("OFF") && !with_on) {
             kind = Kind::Off;
         } else if (field.is("ON") || field.is("FLOOD")) {
             kind = Kind::Flood;
@@ -143,14 +151,18 @@ void handleCoolnt(ReaderContext& context, std::string_view word, std::string_vie
 
 void handleDelay(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
-    const bool revolutions = fields.size() == 2 && fields[1].is("REV");
-    if (fields.empty() || fields.size() > 2 || (fields.size() == 2 && !revolutions) || !fields[0].is_number ||
-        !(fields[0].number >= 0.0)) {
+    const bool word_first = fields.size() == 2 && !fields[0].is_number;
+    const std::size_t number_at = word_first ? 1 : 0;
+    const std::size_t word_at = word_first ? 0 : 1;
+    const bool revolutions = fields.size() == 2 && fields[word_at].is("REV");
+    const bool seconds_word = fields.size() == 2 && fields[word_at].is("SEC");
+    if (fields.empty() || fields.size() > 2 || (fields.size() == 2 && !revolutions && !seconds_word) ||
+        !fields[number_at].is_number || !(fields[number_at].number >= 0.0)) {
         context.error("cl.delay", fmt::format("{}/{} is not understood; seconds, or revolutions with REV, are", word,
                                               quoted(body)));
         return;
     }
-    double seconds = fields[0].number;
+    double seconds = fields[number_at].number;
     if (revolutions) {
         if (!context.spindle_rpm || !(*context.spindle_rpm > 0.0)) {
             context.error("cl.delay", fmt::format("{} in revolutions, but no spindle speed in RPM holds here", word));
@@ -159,6 +171,20 @@ void handleDelay(ReaderContext& context, std::string_view word, std::string_view
         seconds = seconds * 60.0 / *context.spindle_rpm;
     }
     context.emit(Dwell{seconds});
+}
+
+void handleTolerance(ReaderContext& context, std::string_view word, std::string_view body) {
+    const Fields fields(body);
+    if (fields.size() != 1 || !fields[0].is_number || !(fields[0].number >= 0.0)) {
+        const std::string message = fmt::format("{}/{} is not understood and is passed over", word, quoted(body));
+        if (context.options.strict) {
+            context.error("cl.tolerance", message);
+        } else {
+            context.warning("cl.tolerance", message);
+        }
+        return;
+    }
+    context.emit(PathTolerance{word == "OUTTOL", fields[0].number * context.mm_per_unit});
 }
 
 void handleStop(ReaderContext& context, std::string_view word, std::string_view /*body*/) {

@@ -30,6 +30,7 @@ struct OpenArc {
     geometry::Vector3 center_mm = geometry::Vector3::Zero();
     geometry::Vector3 normal = geometry::Vector3::UnitZ();  ///< as ArcMotion::normal
     std::optional<double> radius_mm;
+    std::optional<double> sweep_rad;  ///< when the statement says it
 };
 
 enum class UnitSource : std::uint8_t { Unknown, Stated, Option, Implied };
@@ -75,6 +76,7 @@ struct ReaderContext {
     Standing standing = Standing::Unknown;
     std::optional<OpenArc> arc;                    ///< the next GOTO is its end
     std::optional<geometry::Vector3> first_sense;  ///< INDIRV
+    std::optional<ClRecord> spline;                ///< NURBS, whose KNOT and CNTRL may follow
     bool cycle_on = false;                         ///< a GOTO is a hole
     CutterCompensation::Side compensation = CutterCompensation::Side::Off;
     bool multax = false;
@@ -105,7 +107,8 @@ struct ReaderContext {
 
     /// A GOTO here is a straight move and nothing else.
     [[nodiscard]] bool gotoIsPlain() const {
-        return motion_seen && !program_ended && !arc && !cycle_on && frame_rows.expected == 0 && tool.isSettled();
+        return motion_seen && !program_ended && !arc && !spline && !cycle_on && frame_rows.expected == 0 &&
+               tool.isSettled();
     }
 
     /// A length of the file in mm. Reports once when the file's unit is not known.

@@ -46,11 +46,19 @@ void handleCircle(ReaderContext& context, std::string_view word, std::string_vie
 void handleIndirv(ReaderContext& context, std::string_view word, std::string_view body);
 /// CATIA: `TLON,GOFWD/(CIRCLE/centre,radius),ON,(LINE/point,point)`.
 void handleTlon(ReaderContext& context, std::string_view word, std::string_view body);
-void handleNurbs(ReaderContext& context, std::string_view word, std::string_view body);
+/// Creo and others: `MOVARC/centre,axis,radius,ANGLE,degrees` or with CENTER, AXIS, RADIUS; then the end GOTO.
+void handleMovarc(ReaderContext& context, std::string_view word, std::string_view body);
 /// The GOTO behind CIRCLE was read: makes the arc, or reports why there is none.
 void completeArc(ReaderContext& context, const CutterLocation& end);
 /// Something else than a GOTO follows CIRCLE, or nothing does: reports it.
 void abandonArc(ReaderContext& context);
+
+// spline_statements.cpp
+void handleNurbs(ReaderContext& context, std::string_view word, std::string_view body);
+/// KNOT and CNTRL, which belong to the NURBS before them.
+void handleSplineData(ReaderContext& context, std::string_view word, std::string_view body);
+/// To be called when another statement follows, or none: hands the curve out.
+void finishSpline(ReaderContext& context, std::string_view next_word);
 
 // cycle_statements.cpp
 void handleCycle(ReaderContext& context, std::string_view word, std::string_view body);
@@ -61,6 +69,7 @@ void handleFedrat(ReaderContext& context, std::string_view word, std::string_vie
 void handleSpindl(ReaderContext& context, std::string_view word, std::string_view body);
 void handleCoolnt(ReaderContext& context, std::string_view word, std::string_view body);
 void handleDelay(ReaderContext& context, std::string_view word, std::string_view body);
+void handleTolerance(ReaderContext& context, std::string_view word, std::string_view body);
 void handleStop(ReaderContext& context, std::string_view word, std::string_view body);
 
 // tool_statements.cpp
@@ -76,6 +85,10 @@ void handleTurret(ReaderContext& context, std::string_view word, std::string_vie
 void handleUnits(ReaderContext& context, std::string_view word, std::string_view body);
 void handleMsys(ReaderContext& context, std::string_view word, std::string_view body);
 void handleCsys(ReaderContext& context, std::string_view word, std::string_view body);
+/// ORIGIN and TRANS: only what moves nothing.
+void handleShift(ReaderContext& context, std::string_view word, std::string_view body);
+/// SET/MODE,ABSOL.
+void handleSet(ReaderContext& context, std::string_view word, std::string_view body);
 void handleTrntyp(ReaderContext& context, std::string_view word, std::string_view body);
 /// Comments that carry records: CATIA's in its dialect, and those that cusp's writer makes.
 void handleComment(ReaderContext& context, std::string_view comment);

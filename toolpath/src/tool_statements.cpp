@@ -24,6 +24,39 @@ void takeCutter(ReaderContext& context, std::string_view word, std::string_view 
     context.tool.fresh = true;
 }
 
+/// MILL: diameter, lower corner radius, height, taper angle, tip angle; with 7 values also where the corner circle lies,
+/// with 10 an upper one, which APT's shape has no place for.
+std::optional<geometry::Cutter> nxMillShape(ReaderContext& context, std::string_view word, const Fields& fields) {
+    constexpr std::size_t most = 10;
+    std::array<double, most> v{};
+    if (!takeNumbers(context, word, fields, 1, fields.size() - 1, v.data())) {
+        return std::nullopt;
+    }
+    const double unit = context.mm_per_unit;
+    geometry::Cutter cutter =
+        millShape(v[0] * unit, v[1] * unit, v[2] * unit, base::radFromDeg(v[3]), base::radFromDeg(v[4]));
+    if (v[7] != 0.0) {
+        return std::nullopt;
+    }
+    if (fields.size() > 6 && (v[5] != 0.0 || v[6] != 0.0)) {
+        cutter.corner_e_mm = v[5] * unit;
+        cutter.corner_f_mm = v[6] * unit;
+    }
+    return cutter;
+}
+
+/// DRILL, the kind of operation, diameter, corner radius, length, point angle (between the edges), flute length.
+std::optional<geometry::Cutter> drillShape(ReaderContext& context, std::string_view word, const Fields& fields) {
+    constexpr std::size_t count = 5;
+    std::array<double, count> v{};
+    if (fields.size() != 2 + count || fields[1].is_number || !takeNumbers(context, word, fields, 2, count, v.data())) {
+        return std::nullopt;
+    }
+    const double unit = context.mm_per_unit;
+    constexpr double flat_deg = 180.0;
+    return millShape(v[0] * unit, v[1] * unit, v[4] * unit, 0.0, base::radFromDeg((flat_deg - v[3]) / 2.0));
+}
+
 /// "17.0" and "17" are tool 17; anything else is not a number of a tool.
 std::optional<std::int64_t> toolNumber(const Field& field) {
     constexpr double largest = 1e9;
@@ -64,23 +97,26 @@ void handleTldata(ReaderContext& context, std::string_view word, std::string_vie
         refuseTurning(context, "TLDATA/TURN");
         return;
     }
-    // MILL: diameter, corner radius, height, taper angle, tip angle.
-    constexpr std::size_t mill_values = 5;
-    if (fields.size() != 1 + mill_values || !fields[0].is("MILL")) {
-        context.warning("cl.tool-shape", fmt::format("{}/{}: only MILL with 5 values is understood; the tool is called "
-                                                     "without its shape",
+    const std::size_t values = fields.size() - (fields.empty() ? 0 : 1);
+    const std::size_t errors_before = context.report.errorCount();
+    std::optional<geometry::Cutter> cutter;
+    if (fields.empty() || fields.truncated() || !(fields[0].is("MILL") || fields[0].is("DRILL"))) {
+    } else if (fields[0].is("DRILL")) {
+        cutter = drillShape(context, word, fields);
+    } else if (values == 5 || values == 7 || values == 10) {
+        cutter = nxMillShape(context, word, fields);
+    }
+    if (context.report.errorCount() > errors_before) {
+        return;
+    }
+    if (!cutter) {
+        context.warning("cl.tool-shape", fmt::format("{}/{}: only MILL with 5 or 7 values and DRILL with 5 are "
+                                                     "understood; the tool is called without its shape",
                                                      word, quoted(body)));
         context.tool.cutter.reset();
         return;
     }
-    std::array<double, mill_values> values{};
-    if (!takeNumbers(context, word, fields, 1, mill_values, values.data())) {
-        return;
-    }
-    const double unit = context.mm_per_unit;
-    const geometry::Cutter cutter = millShape(values[0] * unit, values[1] * unit, values[2] * unit,
-                                              base::radFromDeg(values[3]), base::radFromDeg(values[4]));
-    takeCutter(context, word, body, cutter);
+    takeCutter(context, word, body, *cutter);
     context.tool.fresh = false;  // TOOL PATH owes the call, not TLDATA
 }
 

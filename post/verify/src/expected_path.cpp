@@ -123,6 +123,9 @@ public:
     void operator()(const toolpath::Dwell&) {}
     void operator()(const toolpath::ProgramEnd&) {}
     void operator()(const toolpath::CutterCompensation& command) { change().compensation = command.side; }
+    void operator()(const toolpath::PathTolerance&) {}
+    /// Refused before it gets here.
+    void operator()(const toolpath::SplineMotion&) {}
 
     std::uint32_t line = 0;
 

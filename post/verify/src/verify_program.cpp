@@ -10,9 +10,25 @@
 
 namespace cusp::post::verify {
 
+namespace {
+
+/// What a CL file may hold and no program can be compared with.
+base::Diagnostics incomparable(const toolpath::ToolPath& path) {
+    base::Diagnostics report;
+    for (const toolpath::ClRecord& record : path.records)
+        if (std::holds_alternative<toolpath::SplineMotion>(record.statement))
+            report.error("verify.unsupported", "a NURBS curve is not compared with programs",
+                         {path.file_name, record.line, 0, {}});
+    return report;
+}
+
+}  // namespace
+
 base::Result<VerifyReport> verifyProgram(std::istream& program, const std::string& program_name,
                                          const MachineFile& machine, const toolpath::ToolPath* against,
                                          const VerifyOptions& options) {
+    if (against != nullptr)
+        if (auto refused = incomparable(*against); refused.hasErrors()) return base::fail(std::move(refused));
     VerifyReport report;
     ExpectedPath expected;
     if (against != nullptr) expected = expectedPath(*against);

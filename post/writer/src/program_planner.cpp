@@ -154,6 +154,11 @@ struct ProgramPlanner::State {
     void take(const toolpath::CutterCompensation& command) {
         if (command.side != toolpath::CutterCompensation::Side::Off) refuse("cutter radius compensation is");
     }
+    void take(const toolpath::PathTolerance&) {}
+    void take(const toolpath::SplineMotion&) {
+        report.error("post.nurbs", "a NURBS curve cannot be posted: export the operation with linear or circular moves",
+                     here());
+    }
     void refuse(std::string_view what) {
         report.error("post.unsupported", fmt::format("{} not yet posted", what), here());
     }

@@ -46,6 +46,21 @@ struct ArcMotion {
 /// (MD21000 CIRCLE_ERROR_CONST, 0.01 mm as delivered).
 inline constexpr double arc_tolerance_mm = 0.01;
 
+/// NURBS with its KNOT and CNTRL statements (NX): the numbers as the file writes them, in its unit. What they mean beyond
+/// that is not documented well enough to drive the curve from them; whoever needs the motion refuses it by name. Where the
+/// curve ends is not known either.
+struct SplineMotion {
+    std::vector<double> parameters;             ///< of NURBS/
+    std::vector<double> knots;                  ///< of every KNOT/, in file order
+    std::vector<std::vector<double>> controls;  ///< one for each CNTRL/
+};
+
+/// INTOL, OUTTOL: how far the CAM system let the path be from the part surface. Modal.
+struct PathTolerance {
+    bool outside = false;  ///< OUTTOL: material is left; else INTOL: the part is cut into
+    double value_mm = 0.0;
+};
+
 /// FROM: where the tool stands before the first move. It moves nothing.
 struct StartPosition {
     CutterLocation location;
@@ -155,9 +170,10 @@ struct Dwell {
 /// FINI, END, END-OF-PATH at the end of the file.
 struct ProgramEnd {};
 
-using ClStatement = std::variant<LinearMotion, FeedRate, SpindleCommand, CoolantCommand, ToolCall, OperationStart,
-                                 ProgrammingFrame, Remark, ProgramStop, Dwell, ProgramEnd, ArcMotion, StartPosition,
-                                 HomeReturn, CycleStart, HoleLocation, CycleEnd, CutterCompensation, WorkPlane>;
+using ClStatement =
+    std::variant<LinearMotion, FeedRate, SpindleCommand, CoolantCommand, ToolCall, OperationStart, ProgrammingFrame,
+                 Remark, ProgramStop, Dwell, ProgramEnd, ArcMotion, StartPosition, HomeReturn, CycleStart, HoleLocation,
+                 CycleEnd, CutterCompensation, WorkPlane, SplineMotion, PathTolerance>;
 
 /// A statement and the line of the CL file it began on (from 1).
 struct ClRecord {
