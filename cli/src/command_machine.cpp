@@ -53,6 +53,7 @@ std::string rotaryText(const kinematics::Machine& model) {
 }
 
 std::string lawText(const kinematics::Law& law) {
+    if (law.checked == 0) return fmt::format("    {:<48} does not apply to this machine\n", law.name);
     return fmt::format("    {:<48} worst {:<9.2g} bound {:<7.0e} {:<4} {}\n", law.name, law.worst, law.bound, law.unit,
                        law.passes() ? "ok" : "BROKEN");
 }
@@ -109,7 +110,7 @@ base::Json toJson(const Checked& checked) {
                                {"bound", law.bound},
                                {"unit", law.unit},
                                {"checked", law.checked},
-                               {"pass", law.passes()}});
+                               {"pass", law.checked == 0 ? base::Json() : base::Json(law.passes())}});
     out["anchors"] = base::Json::array();
     for (const auto& anchor : checked.anchors)
         out["anchors"].push_back({{"source", anchor.source},

@@ -140,7 +140,7 @@ ExitCode runVerify(const Flags& flags) {
     else
         say(fmt::format("{} on {}{}\n", fileNameOf(flags.program), machine->file.machine.name,
                         flags.against.empty() ? "" : ", against " + fileNameOf(flags.against)) +
-            post::verify::toText(*report));
+            (machine->unanchored() ? unanchored_text : "") + post::verify::toText(*report));
     return report->pass ? ExitCode::Done : ExitCode::FoundSomething;
 }
 

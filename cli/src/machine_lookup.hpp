@@ -20,7 +20,15 @@ struct LoadedMachine {
     std::string path;
     post::MachineFile file;
     kinematics::Machine model;
+
+    /// No pose of it is known from outside cusp, so that no check sees a wrong sign in its file. A machine that turns nothing
+    /// has nothing to anchor.
+    [[nodiscard]] bool unanchored() const { return file.machine.anchors.empty() && model.rotaryCount() > 0; }
 };
+
+/// Said whenever an unanchored machine is used.
+inline constexpr const char* unanchored_text =
+    "  this machine is unanchored: no pose of it is known from outside, and a wrong sign in its file would not be seen\n";
 
 [[nodiscard]] base::Result<LoadedMachine> loadMachine(const std::string& path_or_name);
 

@@ -103,6 +103,7 @@ std::string toText(const PostOutcome& outcome) {
                     outcome.mm_per_unit == 1.0 ? "mm" : "inches", plural(summary.operations, "operation"),
                     plural(summary.tool_changes, "tool change"), plural(summary.cutter_locations, "cutter location"));
     out += fmt::format("  for {}\n", outcome.machine.file.machine.name);
+    if (outcome.machine.unanchored()) out += unanchored_text;
     if (outcome.report.hasErrors()) {
         const std::string limits =
             summary.limit_violations > 0 ? ", " + plural(summary.limit_violations, "limit violation") : "";
@@ -123,6 +124,7 @@ base::Json toJson(const PostOutcome& outcome) {
     out["dialect"] = outcome.dialect;
     out["mm_per_unit"] = outcome.mm_per_unit;
     out["machine"] = outcome.machine.file.machine.name;
+    out["machine_anchored"] = !outcome.machine.unanchored();
     out["program"] = outcome.report.hasErrors() ? base::Json() : base::Json(outcome.output);
     out["cutter_locations"] = summary.cutter_locations;
     out["operations"] = summary.operations;

@@ -71,5 +71,28 @@ TEST_F(MachineCommand, JsonListsLawsAnchorsAndAssumptions) {
     EXPECT_GE(json["machines"][1]["assumed"].size(), 1U);
 }
 
+TEST_F(MachineCommand, ALawThatDoesNotApplyIsNotCalledBroken) {
+    const auto outcome = run({"machine", "check", "three-axis", "--poses", "200"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.output.find("tool axis at the pole, first axis anywhere       does not apply to this machine\n"),
+              std::string::npos)
+        << outcome.output;
+    EXPECT_EQ(outcome.output.find("BROKEN"), std::string::npos) << outcome.output;
+    const auto json = nlohmann::json::parse(run({"machine", "check", "three-axis", "--poses", "200", "--json"}).output);
+    for (const auto& law : json["machines"][0]["laws"]) EXPECT_EQ(law["pass"].is_null(), law["checked"] == 0) << law;
+}
+
+TEST_F(MachineCommand, AnUnanchoredMachineSaysSoWhenItIsUsed) {
+    const std::string cl = write("part.cls", small_cl);
+    const std::string said = "this machine is unanchored";
+    const auto fooke = run({"post", cl, "-m", "fooke-endura-ca", "-o", path("A.MPF")});
+    EXPECT_NE(fooke.output.find(said), std::string::npos) << fooke.output;
+    EXPECT_EQ(run({"post", cl, "-m", "head-c200-a95", "-o", path("B.MPF")}).output.find(said), std::string::npos);
+    EXPECT_NE(run({"verify", path("A.MPF"), "-m", "fooke-endura-ca", "--against", cl}).output.find(said),
+              std::string::npos);
+    EXPECT_EQ(run({"verify", path("B.MPF"), "-m", "head-c200-a95", "--against", cl}).output.find(said),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace cusp::cli
