@@ -66,10 +66,16 @@ void expectAnswer(const std::string& url) {
     Request request;
     request.bytes = bytesOf("are you there?");
     request.reply_bytes = request.bytes.size();
-    ASSERT_TRUE((*link)->send(request).has_value());
-    const auto reply = (*link)->receive(5.0);
-    ASSERT_TRUE(reply.has_value() && reply->has_value());
-    EXPECT_EQ(textOf(**reply), "are you there?");
+    // Connections that met a full house are made anew; what was asked on them is lost and asked again.
+    for (int tries = 0; tries < 20; ++tries) {
+        ASSERT_TRUE((*link)->send(request).has_value());
+        const auto reply = (*link)->receive(2.0);
+        ASSERT_TRUE(reply.has_value());
+        if (!*reply) continue;
+        EXPECT_EQ(textOf(**reply), "are you there?");
+        return;
+    }
+    ADD_FAILURE() << "no answer";
 }
 
 class Servers : public ::testing::TestWithParam<const char*> {};
