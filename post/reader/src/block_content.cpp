@@ -290,8 +290,12 @@ bool ContentReader::namedValue(const Word& word) {
         setNumber(out_.turns, word);
     else if (word.name == "RPL")
         setNumber(out_.plane_angle_deg, word);
-    else if (word.name == "CTOL" || word.name == "OTOL" || word.name == "ADIS" || word.name == "ADISPOS")
-        static_cast<void>(number(word));  // tolerances of smoothing: the programmed geometry stays
+    else if (word.name == "CTOL")
+        setNumber(out_.contour_tolerance, word);
+    else if (word.name == "OTOL")
+        setNumber(out_.orientation_tolerance_deg, word);
+    else if (word.name == "ADIS" || word.name == "ADISPOS")
+        static_cast<void>(number(word));  // ways of smoothing: the programmed geometry stays
     else if (variables_.isDeclared(word.name)) {
         if (const auto result = number(word)) variables_.set(word.name, *result);
     } else

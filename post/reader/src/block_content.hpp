@@ -57,6 +57,8 @@ struct BlockContent {
     std::optional<double> speed;
     std::optional<std::string> tool;
     std::optional<double> cutting_edge;
+    std::optional<double> contour_tolerance;          ///< CTOL
+    std::optional<double> orientation_tolerance_deg;  ///< OTOL
     std::vector<GroupCode> codes;
     std::vector<int> m_functions;
     std::optional<bool> transformation;

@@ -90,6 +90,7 @@ void Executor::run(const Block& block, const BlockContent& content, bool in_subp
     returned_ = false;
     place_ = {block.where.line, block.number};
     applyCodes(content);
+    applySmoothing(content);
     if (content.message) sink_.event(place_, OperatorMessage{*content.message});
     if (content.high_speed) sink_.event(place_, HighSpeedSetting{*content.high_speed});
     if (content.frame) return programFrame(content);
@@ -106,6 +107,16 @@ void Executor::run(const Block& block, const BlockContent& content, bool in_subp
     move(content);
     if (modal_cycle_ && !content.modal_call && content.movesLinear()) runCycle(*modal_cycle_);
     applyLateFunctions(content);
+}
+
+void Executor::applySmoothing(const BlockContent& content) {
+    const std::string_view path = active_[static_cast<std::size_t>(group::path)];
+    const bool once = std::any_of(content.codes.begin(), content.codes.end(),
+                                  [](const GroupCode& code) { return code.name == "G9"; });
+    state_.exact_stop = once || path.empty() || path == "G60";
+    if (content.contour_tolerance) state_.contour_tolerance_mm = *content.contour_tolerance * mmPerUnit();
+    if (content.orientation_tolerance_deg)
+        state_.orientation_tolerance_rad = base::radFromDeg(*content.orientation_tolerance_deg);
 }
 
 void Executor::applyCodes(const BlockContent& content) {

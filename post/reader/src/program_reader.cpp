@@ -54,8 +54,15 @@ public:
           executor_(machine, chain, options.setup, sink, report),
           flow_(source_, contents_.variables(), report) {}
 
-    ReadSummary all(const std::string& file_name) {
-        while (!executor_.ended() && !aborted_) one();
+    bool step() {
+        if (executor_.ended() || aborted_) return false;
+        one();
+        return !executor_.ended() && !aborted_;
+    }
+    [[nodiscard]] bool ended() const { return executor_.ended(); }
+    [[nodiscard]] std::size_t line() const { return source_.lineNumber(); }
+
+    ReadSummary finish(const std::string& file_name) {
         if (!executor_.ended() && !broken_)
             report_.error("nc.no-end", "the program ends without M30, M2 or M17",
                           {file_name, source_.lineNumber(), 0, {}});
@@ -130,15 +137,40 @@ private:
 
 }  // namespace
 
+struct ProgramRun::State {
+    State(std::istream& in, std::string name, const MachineFile& machine, ReaderOptions reader_options,
+          ProgramSink& sink, base::Diagnostics& report)
+        : file_name(std::move(name)),
+          options(std::move(reader_options)),
+          chain(machine.machine),
+          run(in, file_name, machine, chain, options, sink, report) {}
+
+    std::string file_name;
+    ReaderOptions options;
+    ForwardChain chain;
+    Run run;
+};
+
+ProgramRun::ProgramRun(std::istream& in, std::string file_name, const MachineFile& machine, ReaderOptions options,
+                       ProgramSink& sink, base::Diagnostics& report)
+    : state_(std::make_unique<State>(in, std::move(file_name), machine, std::move(options), sink, report)) {}
+ProgramRun::~ProgramRun() = default;
+
+bool ProgramRun::step() { return state_->run.step(); }
+bool ProgramRun::ended() const { return state_->run.ended(); }
+std::size_t ProgramRun::line() const { return state_->run.line(); }
+ReadSummary ProgramRun::finish() { return state_->run.finish(state_->file_name); }
+
 ReadSummary readProgram(std::istream& in, const std::string& file_name, const MachineFile& machine,
                         const ReaderOptions& options, ProgramSink& sink, base::Diagnostics& report) {
-    const ForwardChain chain(machine.machine);
-    if (chain.rotaryCount() > max_rotary_axes) {
+    if (machine.machine.rotary.size() > max_rotary_axes) {
         report.error("nc.machine", fmt::format("the machine has more than {} rotary axes", max_rotary_axes),
                      {file_name, 0, 0, {}});
         return {};
     }
-    return Run(in, file_name, machine, chain, options, sink, report).all(file_name);
+    ProgramRun run(in, file_name, machine, options, sink, report);
+    while (run.step()) continue;
+    return run.finish();
 }
 
 }  // namespace cusp::post::reader

@@ -16,6 +16,7 @@ inline constexpr int plane = 6;
 inline constexpr int compensation = 7;
 inline constexpr int work_offset = 8;
 inline constexpr int frame_suppression = 9;
+inline constexpr int path = 10;
 inline constexpr int units = 13;
 inline constexpr int dimension = 14;
 inline constexpr int feed = 15;

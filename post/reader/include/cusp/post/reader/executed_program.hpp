@@ -52,6 +52,10 @@ struct ModalSnapshot {
     /// not tell.
     RadiusCompensation compensation = RadiusCompensation::Off;
     std::string work_offset;  ///< "G54" …; empty until the program sets it
+    /// G60 (as delivered) or G9: the block ends at rest. CYCLE832 smooths all the same.
+    bool exact_stop = true;
+    std::optional<double> contour_tolerance_mm;       ///< CTOL
+    std::optional<double> orientation_tolerance_rad;  ///< OTOL
 };
 
 /// Values the program has determined; an absent one is known to the control only.

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -50,5 +51,31 @@ struct ReadSummary {
 /// and the others that post/reader/README.md lists.
 ReadSummary readProgram(std::istream& in, const std::string& file_name, const MachineFile& machine,
                         const ReaderOptions& options, ProgramSink& sink, base::Diagnostics& report);
+
+/// The same, line by line, for whoever is handed a program while it runs. A line must be there as a whole when `step` is
+/// called; the stream may have been at its end before, if whoever owns it has cleared that. The machine must have no more
+/// than `max_rotary_axes`; all references must outlive the run.
+class ProgramRun {
+public:
+    ProgramRun(std::istream& in, std::string file_name, const MachineFile& machine, ReaderOptions options,
+               ProgramSink& sink, base::Diagnostics& report);
+    ~ProgramRun();
+    ProgramRun(const ProgramRun&) = delete;
+    ProgramRun& operator=(const ProgramRun&) = delete;
+
+    /// Reads and runs one line. False when the program is over: at its end, at the end of the text, or after a problem that
+    /// ends the read.
+    [[nodiscard]] bool step();
+    /// M30, M2 or M17 was reached.
+    [[nodiscard]] bool ended() const;
+    /// The line read last.
+    [[nodiscard]] std::size_t line() const;
+    /// After the last step: reports a program without end, and what stands behind it.
+    ReadSummary finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 }  // namespace cusp::post::reader
