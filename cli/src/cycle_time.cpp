@@ -142,6 +142,7 @@ struct CycleTimeEstimate::State {
     }
     void see(const post::TipProgramming&) { axis_programming = false; }
     void see(const post::AxisProgramming& item) {
+        rest();
         axis_programming = true;
         origin = item.wcs_origin_mm;
         setTool(item.tool_length_mm);

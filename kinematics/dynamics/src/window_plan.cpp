@@ -15,7 +15,7 @@ namespace {
 /// Of the spans next to a rest, which run with constant jerk: short against the way on which axes reach full acceleration.
 constexpr double rest_mm = 0.1;
 constexpr double fewest_spans = 8.0;
-constexpr int most_rounds = 12;
+constexpr int most_rounds = 7;
 constexpr double keep_free = 1e-6;
 
 std::pair<AxisCurve, AxisCurve> halves(const AxisCurve& curve) {
