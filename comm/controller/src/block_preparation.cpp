@@ -68,6 +68,8 @@ void BlockPreparation::refuse(int number, std::size_t line, std::string text) {
 
 void BlockPreparation::motion(const nc::ExecutedMotion& motion) {
     if (alarm_) return;
+    if (motion.state->compensation != nc::RadiusCompensation::Off)
+        return refuse(alarm::program, motion.place.line, "cutter radius compensation (G41, G42) is not run here");
     // D0 takes the tool out of the reckoning; there is no tool before the first call either.
     const double length_mm = motion.state->cutting_edge == 0 ? 0.0 : options_.tool_length_mm;
     if (length_mm != tool_length_mm_) {

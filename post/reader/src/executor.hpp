@@ -32,7 +32,6 @@ public:
 private:
     void applyCodes(const BlockContent& content);
     void applySmoothing(const BlockContent& content);
-    void compensate(RadiusCompensation side);
     void applyFeedAndSpeed(const BlockContent& content);
     void applyTool(const BlockContent& content);
     void applyTransformation(bool on);

@@ -110,6 +110,8 @@ TEST(ControlRun, AlarmsHaveNumberLineAndText) {
     const Alarm end = alarmOf("G54 G90\nG1 F100 SUPA X10\n");
     EXPECT_EQ(end.number, 12080);
     EXPECT_NE(end.text.find("[nc.no-end]"), std::string::npos) << end.text;
+    EXPECT_EQ(alarmOf("G54 G90\nSUPA G0 X0 Y0 Z0\nG1 F100 G41 X1 Y1\nX5\nG40 X0\nM30\n").text,
+              "cutter radius compensation (G41, G42) is not run here");
     EXPECT_EQ(alarmOf("G54 G95 G90\nSUPA G1 F0.1 X10\nM30\n").number, 10860);
 }
 
