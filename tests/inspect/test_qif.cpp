@@ -118,9 +118,9 @@ std::string documentOf(const std::vector<double>& values, const std::string& uni
         << R"(<CharacteristicItems n="1"><DiameterCharacteristicItem id="3"><Name>bore</Name>)"
         << "<CharacteristicNominalId>2</CharacteristicNominalId></DiameterCharacteristicItem></CharacteristicItems>"
         << "</Characteristics><Results><MeasurementResultsSet>";
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (const double value : values)
         out << "<MeasurementResults><MeasuredCharacteristics><CharacteristicMeasurements>"
-            << "<DiameterCharacteristicMeasurement><CharacteristicItemId>3</CharacteristicItemId><Value>" << values[i]
+            << "<DiameterCharacteristicMeasurement><CharacteristicItemId>3</CharacteristicItemId><Value>" << value
             << "</Value></DiameterCharacteristicMeasurement></CharacteristicMeasurements></MeasuredCharacteristics>"
             << "</MeasurementResults>";
     out << "</MeasurementResultsSet></Results></QIFDocument>";

@@ -125,6 +125,14 @@ test("shows what there is of a small report, and text as text", async () => {
     assertQuiet(page);
 });
 
+test("doubts stand before the decision", async () => {
+    const page = await stage.show("inspection", { ...sample, title: undefined, points_file: "/parts/17.csv", doubts: ["the points may be in inches"] });
+    assert.equal(await page.text("h1"), "17.csv");
+    assert.equal(await page.text(".problem"), "The points may be in inches.");
+    assert.ok(await page.evaluate("document.querySelector('.problem').compareDocumentPosition(document.querySelector('.verdict')) & Node.DOCUMENT_POSITION_FOLLOWING"));
+    assertQuiet(page);
+});
+
 test("says on the page that it cannot be drawn", async () => {
     const page = await stage.show("inspection", { points: 3 });
     assert.match(await page.text("[role=alert]"), /^This page cannot be drawn: /);

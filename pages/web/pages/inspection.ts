@@ -21,11 +21,19 @@ function scaleRange(input: InspectionInput): ScaleRange {
   return { low_mm: -end, high_mm: end, are_limits: false };
 }
 
+/** The report writes reasons as they follow a colon. */
+function sentence(text: string): string {
+  const whole = text.charAt(0).toUpperCase() + text.slice(1);
+  return /[.!?]$/.test(whole) ? whole : `${whole}.`;
+}
+
+const fileName = (path: string): string => path.split("/").pop() as string;
+
 function whyText(input: InspectionInput): string {
   const { decision, judged } = input;
   const limits = limitsOf(input);
   const parts = [
-    decision?.reason,
+    decision?.reason ? sentence(decision.reason) : undefined,
     limits ? `Limits ${limitsText(limits)}, ${judged === "datum" ? "in the fixed datums" : "after best fit"}.` : undefined,
     decision?.rule ? `Rule: ${decision.rule}.` : undefined,
     decision?.uncertainty ? `Standard uncertainty ${micrometres(decision.uncertainty.standard_mm, 2)}\u2009\u00b5m, ${decision.uncertainty.stated ? "stated" : "from the points"}.` : undefined,
@@ -105,7 +113,7 @@ function histogramCard(input: InspectionInput): Child {
 
 function draw(input: InspectionInput): Child[] {
   const verdict = input.decision?.verdict ?? "not-asked";
-  const title = input.title ?? input.points_file ?? "Inspection";
+  const title = input.title ?? fileName(input.points_file ?? "Inspection");
   const origin = [
     input.points_file ? `Measured: ${input.points_file}` : "",
     input.nominal_file ? `Nominal: ${input.nominal_file}` : "",
@@ -113,8 +121,10 @@ function draw(input: InspectionInput): Child[] {
   ];
   const pair = [histogramCard(input), comparisonCard(input)];
   document.body.dataset["verdict"] = verdictWord(verdict);
+  const doubts = (input.doubts ?? []).map((doubt) => h("p", { class: "problem", role: "alert" }, sentence(doubt)));
   return [
     masthead("Inspection report", title, origin),
+    ...doubts,
     verdictBanner(verdict, whyText(input)),
     keyFigures(input),
     mapCard(input),

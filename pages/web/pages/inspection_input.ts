@@ -112,6 +112,8 @@ export interface InspectionInput extends Stamp {
   outlier_rule?: { factor: number; floor_mm: number };
   sections?: Section[];
   decision?: Decision;
+  /** What speaks against trusting the figures, a sentence each. */
+  doubts?: string[];
   map?: MapData;
   worst?: WorstPoint[];
   notes?: string[];
