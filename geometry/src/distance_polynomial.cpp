@@ -94,6 +94,10 @@ DistancePolynomial::DistancePolynomial(const BezierPatch& patch) {
             if (l + 2 < s.columns) bend_v = std::max(bend_v, std::abs(at[0] - 2.0 * at[1] + at[2]));
         }
     }
+    // Second differences of the size of rounding say nothing.
+    const double noise = 4.0 * rounding * largest;
+    if (bend_u < noise) bend_u = 0.0;
+    if (bend_v < noise) bend_v = 0.0;
 }
 
 }  // namespace cusp::geometry::detail

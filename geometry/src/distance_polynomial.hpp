@@ -12,8 +12,8 @@ namespace cusp::geometry::detail {
 
 struct DistancePolynomial {
     double least_squared_mm2 = 0.0;  ///< nothing of the patch is nearer to the origin of its net
-    double bend_u = 0.0;             ///< how far the bound may be off, by the direction in which halving helps
-    double bend_v = 0.0;             ///< likewise
+    double bend_u = 0.0;  ///< how far the bound may be off, by the direction in which halving helps; 0 below rounding
+    double bend_v = 0.0;  ///< likewise
 
     explicit DistancePolynomial(const BezierPatch& patch);
 

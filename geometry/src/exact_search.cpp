@@ -37,40 +37,42 @@ bool canImprove(double least_squared, double limit_squared) {
 
 class Search {
 public:
-    Search(const BezierPatch& patch, const Vector3& query, double limit_squared,
-           const std::function<double(const PatchFoot&)>& take)
-        : patch_(patch), query_(query), limit_(limit_squared), take_(take) {}
+    Search(const BezierPatch& patch, const Vector3& query, double limit_squared, const SearchRules& rules)
+        : patch_(patch), query_(query), limit_(limit_squared), rules_(rules) {}
 
     void run(const ParameterBox& box) {
         open_.emplace(partOf(patch_, box).about(patch_.origin() + query_), box);
         while (!open_.empty() && canImprove(open_.top().distance.least_squared_mm2, limit_)) {
             const Piece piece = open_.top();
             open_.pop();
-            if (!settle(piece)) branch(piece);
+            const PatchBounds bounds = boundPatch(piece.net);
+            if (!settle(piece, bounds)) branch(piece, bounds);
         }
     }
 
 private:
     void offer(const PatchFoot& foot) {
-        if (foot.squared_mm2 < limit_) limit_ = take_(foot);
+        if (foot.squared_mm2 < limit_) limit_ = rules_.take(foot);
     }
 
     /// Tries to finish with the piece; whatever is found on the way lowers the limit.
-    bool settle(const Piece& piece) {
+    bool settle(const Piece& piece, const PatchBounds& bounds) {
         const auto [s, t] = piece.distance.likelyPlace();
         const double u = piece.box.low_u + s * (piece.box.high_u - piece.box.low_u);
         const double v = piece.box.low_v + t * (piece.box.high_v - piece.box.low_v);
         const PatchFoot foot = newtonInBox(patch_, piece.box, query_, u, v);
         offer(foot);
         if (!canImprove(piece.distance.least_squared_mm2, limit_)) return true;
-        const PatchBounds bounds = boundPatch(piece.net);
         // The origin of the net is the query.
         if (foot.converged && bounds.isConvexFor(Vector3::Zero())) return true;
-        return 2.0 * bounds.radius_mm < search_tolerance_mm;
+        const bool partly = rules_.coverage && rules_.coverage(piece.box) == Coverage::Partly;
+        return 2.0 * bounds.radius_mm < (partly ? edge_width_mm : search_tolerance_mm);
     }
 
-    void branch(const Piece& piece) {
-        const bool along_u = piece.distance.bend_u >= piece.distance.bend_v;
+    void branch(const Piece& piece, const PatchBounds& bounds) {
+        const bool by_length = piece.distance.bend_u == piece.distance.bend_v;
+        const bool along_u =
+            by_length ? bounds.length_u_mm >= bounds.length_v_mm : piece.distance.bend_u > piece.distance.bend_v;
         auto [left, right] = along_u ? piece.net.splitU() : piece.net.splitV();
         ParameterBox first = piece.box;
         ParameterBox second = piece.box;
@@ -81,6 +83,7 @@ private:
     }
 
     void push(BezierPatch part, const ParameterBox& box) {
+        if (rules_.coverage && rules_.coverage(box) == Coverage::Outside) return;
         Piece piece(std::move(part), box);
         if (canImprove(piece.distance.least_squared_mm2, limit_)) open_.push(std::move(piece));
     }
@@ -88,15 +91,15 @@ private:
     const BezierPatch& patch_;
     Vector3 query_;
     double limit_;
-    const std::function<double(const PatchFoot&)>& take_;
+    const SearchRules& rules_;
     std::priority_queue<Piece> open_;
 };
 
 }  // namespace
 
 void searchExactly(const BezierPatch& patch, const ParameterBox& box, const Vector3& query, double limit_squared,
-                   const std::function<double(const PatchFoot&)>& take) {
-    Search(patch, query, limit_squared, take).run(box);
+                   const SearchRules& rules) {
+    Search(patch, query, limit_squared, rules).run(box);
 }
 
 }  // namespace cusp::geometry::detail

@@ -32,7 +32,8 @@ base::Result<TriangleMesh> finishMesh(const TriangleMesh& mesh, const std::strin
     base::Location where;
     where.file = file_name;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        if (!(mesh.vertices[i].cwiseAbs().maxCoeff() <= largest_coordinate_mm)) {
+        // Eigen's maximum may pass over what is no number.
+        if (!mesh.vertices[i].allFinite() || mesh.vertices[i].cwiseAbs().maxCoeff() > largest_coordinate_mm) {
             return base::fail("mesh.number", fmt::format("vertex {}: a coordinate is not a number or beyond 1e9 mm", i),
                               where);
         }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Power basis to Bernstein basis, B-spline to Bézier by blossoming; what must hold of a form is checked first.
 #include "bernstein.hpp"
+#include "blossom.hpp"
 
 #include <cusp/geometry/surface_forms.hpp>
 
@@ -43,7 +44,7 @@ base::Result<void> checkNet(const std::vector<std::vector<Vector3>>& points, con
         for (const Vector3& point : row) {
             // Squares of what is larger would leave the range of a double.
             constexpr double largest_mm = 1e9;
-            if (!(point.cwiseAbs().maxCoeff() <= largest_mm)) {
+            if (!point.allFinite() || point.cwiseAbs().maxCoeff() > largest_mm) {
                 return failAt(key, "surface.not-finite", "a coordinate is not a number or beyond 1e9 mm");
             }
         }
@@ -155,67 +156,6 @@ base::Result<void> checkRange(const std::array<double, 2>& range, const char* ke
     return {};
 }
 
-base::Result<void> checkKnots(const std::vector<double>& knots, std::size_t points, std::size_t degree,
-                              const char* key) {
-    if (points < degree + 1) {
-        return failAt(key, "surface.knots",
-                      fmt::format("degree {} needs at least {} points; there are {}", degree, degree + 1, points));
-    }
-    if (knots.size() != points + degree + 1) {
-        return failAt(key, "surface.knots",
-                      fmt::format("{} points of degree {} need {} knots; there are {}", points, degree,
-                                  points + degree + 1, knots.size()));
-    }
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-        if (!(std::abs(knots[i]) <= 1e9) || (i > 0 && knots[i] < knots[i - 1])) {
-            return failAt(key, "surface.knots", fmt::format("knot [{}] is {:g}; knots must not descend", i, knots[i]));
-        }
-        // degree + 1 equal knots inside would tear the surface apart.
-        if (i >= degree + 1 && i + 1 < points && knots[i] == knots[i - degree]) {
-            return failAt(key, "surface.knots",
-                          fmt::format("the knot {:g} stands more than {} times inside", knots[i], degree));
-        }
-    }
-    if (!(knots[degree] < knots[points])) {
-        return failAt(key, "surface.knots", "the knots leave no range of the parameter");
-    }
-    return {};
-}
-
-std::vector<double> breaksOf(const std::vector<double>& knots, std::size_t points, std::size_t degree) {
-    std::vector<double> breaks;
-    const double smallest = 1e-12 * (knots[points] - knots[degree]);
-    for (std::size_t i = degree; i <= points; ++i) {
-        if (breaks.empty() || knots[i] > breaks.back() + smallest) breaks.push_back(knots[i]);
-    }
-    breaks.back() = knots[points];
-    return breaks;
-}
-
-/// Bézier points of the spline on [a, b], a span without inner knots: its blossom at (a, …, a, b, …, b) (Ramshaw 1989).
-std::vector<Vector4> bezierSpan(const std::vector<Vector4>& points, const std::vector<double>& knots,
-                                std::size_t degree, double a, double b) {
-    const double middle = a + 0.5 * (b - a);
-    const auto above = std::upper_bound(knots.begin(), knots.end(), middle);
-    const std::size_t span = static_cast<std::size_t>(above - knots.begin()) - 1;
-    std::vector<Vector4> out;
-    for (std::size_t j = 0; j <= degree; ++j) {
-        std::vector<Vector4> d(points.begin() + static_cast<std::ptrdiff_t>(span - degree),
-                               points.begin() + static_cast<std::ptrdiff_t>(span + 1));
-        for (std::size_t r = 1; r <= degree; ++r) {
-            const double t = r <= degree - j ? a : b;
-            for (std::size_t i = degree; i >= r; --i) {
-                const double low = knots[span - degree + i];
-                const double high = knots[span + 1 + i - r];
-                const double x = (t - low) / (high - low);
-                d[i] = (1.0 - x) * d[i - 1] + x * d[i];
-            }
-        }
-        out.push_back(d[degree]);
-    }
-    return out;
-}
-
 }  // namespace
 
 base::Result<SurfaceFace> toFace(const PolynomialForm& form, Outward outward) {
@@ -264,27 +204,29 @@ base::Result<SurfaceFace> toFace(const BSplineForm& form, Outward outward) {
     const auto degree_v = static_cast<std::size_t>(std::max(form.degree_v, 0));
     if (auto ok = checkDegree(degree_u, "degree_u"); !ok) return base::fail(ok.error());
     if (auto ok = checkDegree(degree_v, "degree_v"); !ok) return base::fail(ok.error());
-    if (auto ok = checkKnots(form.knots_u, count_u, degree_u, "knots_u"); !ok) return base::fail(ok.error());
-    if (auto ok = checkKnots(form.knots_v, count_v, degree_v, "knots_v"); !ok) return base::fail(ok.error());
+    if (auto ok = detail::checkKnots(form.knots_u, count_u, degree_u, "knots_u", "surface.knots"); !ok)
+        return base::fail(ok.error());
+    if (auto ok = detail::checkKnots(form.knots_v, count_v, degree_v, "knots_v", "surface.knots"); !ok)
+        return base::fail(ok.error());
     const Vector3 origin = middleOf(form.points);
     const auto net = homogeneousNet(form.points, form.weights, origin);
     if (!net) return base::fail(net.error());
 
-    const std::vector<double> breaks_u = breaksOf(form.knots_u, count_u, degree_u);
-    const std::vector<double> breaks_v = breaksOf(form.knots_v, count_v, degree_v);
+    const std::vector<double> breaks_u = detail::breaksOf(form.knots_u, count_u, degree_u);
+    const std::vector<double> breaks_v = detail::breaksOf(form.knots_v, count_v, degree_v);
     std::vector<BezierPatch> patches;
     for (std::size_t m = 0; m + 1 < breaks_u.size(); ++m) {
         Net strip(degree_u + 1, std::vector<Vector4>(count_v));
         for (std::size_t j = 0; j < count_v; ++j) {
             std::vector<Vector4> column;
             for (const auto& row : *net) column.push_back(row[j]);
-            const auto span = bezierSpan(column, form.knots_u, degree_u, breaks_u[m], breaks_u[m + 1]);
+            const auto span = detail::bezierSpan(column, form.knots_u, degree_u, breaks_u[m], breaks_u[m + 1]);
             for (std::size_t i = 0; i <= degree_u; ++i) strip[i][j] = span[i];
         }
         for (std::size_t n = 0; n + 1 < breaks_v.size(); ++n) {
             Net patch;
             for (const auto& row : strip) {
-                patch.push_back(bezierSpan(row, form.knots_v, degree_v, breaks_v[n], breaks_v[n + 1]));
+                patch.push_back(detail::bezierSpan(row, form.knots_v, degree_v, breaks_v[n], breaks_v[n + 1]));
             }
             dropEqualWeights(patch, form.weights);
             patches.push_back(patchOf(patch, origin));

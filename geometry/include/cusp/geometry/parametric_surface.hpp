@@ -5,6 +5,7 @@
 
 #include <cusp/geometry/closest_point.hpp>
 #include <cusp/geometry/surface_face.hpp>
+#include <cusp/geometry/trim_edge.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -22,6 +23,9 @@ namespace cusp::geometry {
 class ParametricSurface : public NominalShape {
 public:
     explicit ParametricSurface(std::vector<SurfaceFace> faces);
+    /// Faces that end at edges. Of a trimmed face only what its edges leave is part of the shape; the nearest point may lie on
+    /// an edge, on the curve in space that the edge is.
+    ParametricSurface(std::vector<SurfaceFace> faces, std::vector<TrimEdge> edges);
     ParametricSurface(ParametricSurface&&) noexcept;
     ParametricSurface& operator=(ParametricSurface&&) noexcept;
     ParametricSurface(const ParametricSurface&) = delete;
@@ -33,6 +37,8 @@ public:
     [[nodiscard]] Eigen::AlignedBox3d bounds() const override;
 
     [[nodiscard]] const std::vector<SurfaceFace>& faces() const;
+    /// How many faces do not fill their rectangle of parameters.
+    [[nodiscard]] std::size_t trimmedFaces() const;
 
 private:
     class Index;

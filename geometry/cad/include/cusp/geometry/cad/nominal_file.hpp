@@ -11,8 +11,9 @@
 
 namespace cusp::geometry {
 
-/// The shape in a file, by the ending of its name (in small or capital letters): `.toml` is a surface file; `.stl` and
-/// `.ply` are meshes in mm. Warnings (`mesh.open` …) go to `report`.
+/// The shape in a file, by the ending of its name (in small or capital letters): `.toml` is a surface file; `.step`,
+/// `.stp`, `.iges` and `.igs` are CAD files; `.stl` and `.ply` are meshes in mm. Warnings (`mesh.open`, `cad.partial` …) go to
+/// `report`.
 /// Errors: `nominal.unknown-format`, and those of the reader.
 [[nodiscard]] base::Result<std::unique_ptr<NominalShape>> loadNominal(const std::string& path,
                                                                       base::Diagnostics& report);
