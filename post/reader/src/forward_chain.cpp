@@ -154,20 +154,20 @@ bool ForwardChain::withinLimits(std::size_t joint, double angle_rad) const {
 /// a + b·cos q1 + c·sin q1 and has two solutions; q0 is then the angle about d0.
 std::optional<bool> ForwardChain::reaches(const Vector3& axis) const {
     if (joints_.size() > 2) return std::nullopt;
-    const auto angleAbout = [](const Vector3& direction, const Vector3& from, const Vector3& to) {
+    const auto angle_about = [](const Vector3& direction, const Vector3& from, const Vector3& to) {
         const Vector3 a = from - dot(from, direction) * direction;
         const Vector3 b = to - dot(to, direction) * direction;
         return std::atan2(dot(direction, cross(a, b)), dot(a, b));
     };
-    const auto firstFits = [&](const Vector3& from) {
+    const auto first_fits = [&](const Vector3& from) {
         if (angleBetween(from, joints_[0].direction) < pole_rad ||
             angleBetween(-1.0 * from, joints_[0].direction) < pole_rad)
             return true;  // at the pole any angle does
-        return withinLimits(0, angleAbout(joints_[0].direction, from, axis));
+        return withinLimits(0, angle_about(joints_[0].direction, from, axis));
     };
     if (joints_.empty()) return angleBetween(axis, spindle_axis_) < reach_rad;
     if (joints_.size() == 1)
-        return std::abs(dot(joints_[0].direction, axis - spindle_axis_)) < reach_rad && firstFits(spindle_axis_);
+        return std::abs(dot(joints_[0].direction, axis - spindle_axis_)) < reach_rad && first_fits(spindle_axis_);
     const Vector3& d0 = joints_[0].direction;
     const Vector3& d1 = joints_[1].direction;
     const Vector3 along = dot(d1, spindle_axis_) * d1;
@@ -181,7 +181,7 @@ std::optional<bool> ForwardChain::reaches(const Vector3& axis) const {
     const double middle = std::atan2(c, b);
     const double half = std::acos(std::clamp(ratio, -1.0, 1.0));
     for (const double q1 : {middle - half, middle + half})
-        if (withinLimits(1, q1) && firstFits(rotated(spindle_axis_, d1, q1))) return true;
+        if (withinLimits(1, q1) && first_fits(rotated(spindle_axis_, d1, q1))) return true;
     return false;
 }
 
