@@ -3,11 +3,13 @@
 // Lists as the page wants them: one per quantity, rounded to what a screen can show.
 #include "inspection_page.hpp"
 
+#include <cusp/inspect/texture_section.hpp>
 #include <cusp/pages/render.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <numeric>
 #include <vector>
@@ -116,29 +118,59 @@ Json worstOf(const InspectionReport& report) {
     return worst;
 }
 
-Json curveOf(const InspectionReport& report, const inspect::SectionResult& section) {
+std::vector<double> deviationsOf(const InspectionReport& report, const inspect::SectionResult& section) {
+    std::vector<double> out;
+    for (const std::uint32_t point : section.points) out.push_back(deviationAt(report.judged(), point));
+    return out;
+}
+
+Json curveOf(const InspectionReport& report, const inspect::SectionResult& section, double planned_step_over_mm) {
     Json arc_length = Json::array();
     Json deviation = Json::array();
     for (std::size_t i = 0; i < section.points.size(); ++i) {
         arc_length.push_back(rounded(section.arc_length_mm[i], per_tenth_micrometre));
         deviation.push_back(rounded(deviationAt(report.judged(), section.points[i]), per_nanometre));
     }
-    return {{"arc_length_mm", arc_length}, {"deviation_mm", deviation}};
+    Json curve{{"arc_length_mm", arc_length}, {"deviation_mm", deviation}};
+    const auto form =
+        inspect::evaluateSection(section.arc_length_mm, deviationsOf(report, section), planned_step_over_mm);
+    if (!form) return curve;
+    Json form_mm = Json::array();
+    for (const double height : form->form.form_mm) form_mm.push_back(rounded(height, per_nanometre));
+    curve["form_mm"] = form_mm;
+    curve["form"] = form->form.text;
+    return curve;
 }
 
 }  // namespace
 
-Json inspectionDocument(const InspectionReport& report, std::size_t map_points) {
+void addSectionForms(Json& json, const InspectionReport& report, double planned_step_over_mm) {
+    for (std::size_t i = 0; i < report.sections.size(); ++i) {
+        const inspect::SectionResult& section = report.sections[i];
+        const auto found =
+            inspect::evaluateSection(section.arc_length_mm, deviationsOf(report, section), planned_step_over_mm);
+        if (!found) continue;
+        const Json added = inspect::toJson(*found, planned_step_over_mm);
+        json["sections"][i]["form"] = added["form"];
+        // Without a plan ridges of noise would count as scallops.
+        if (!(planned_step_over_mm > 0.0)) continue;
+        json["sections"][i]["scallops"] = added["scallops"];
+        if (!found->note.empty()) json["sections"][i]["scallops_note"] = found->note;
+    }
+}
+
+Json inspectionDocument(const InspectionReport& report, double planned_step_over_mm, std::size_t map_points) {
     Json document = inspect::toJson(report);
+    addSectionForms(document, report, planned_step_over_mm);
     for (std::size_t i = 0; i < report.sections.size(); ++i)
-        document["sections"][i]["curve"] = curveOf(report, report.sections[i]);
+        document["sections"][i]["curve"] = curveOf(report, report.sections[i], planned_step_over_mm);
     document["worst"] = worstOf(report);
     document["map"] = mapOf(report, map_points);
     return document;
 }
 
-base::Result<std::string> inspectionPage(const InspectionReport& report) {
-    return base::jsonText(inspectionDocument(report)).and_then([](const std::string& json) {
+base::Result<std::string> inspectionPage(const InspectionReport& report, double planned_step_over_mm) {
+    return base::jsonText(inspectionDocument(report, planned_step_over_mm)).and_then([](const std::string& json) {
         return pages::renderPage("inspection", json);
     });
 }

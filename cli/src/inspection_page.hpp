@@ -14,12 +14,17 @@ namespace cusp::cli {
 /// A browser turns this many points without effort, and the page stays below a few megabytes.
 inline constexpr std::size_t points_on_map = 60'000;
 
+/// Every section's form, and with a planned step-over (0: not known) its scallops against it, added to the sections of the
+/// report's JSON; a section whose arc length does not grow gets neither.
+void addSectionForms(base::Json& json, const inspect::InspectionReport& report, double planned_step_over_mm);
+
 /// The document of the page "inspection" (pages/web/pages/inspection_input.ts). A cloud of more than `map_points` is thinned
 /// to points at equal steps and the largest deviations; the page says so.
-[[nodiscard]] base::Json inspectionDocument(const inspect::InspectionReport& report,
+[[nodiscard]] base::Json inspectionDocument(const inspect::InspectionReport& report, double planned_step_over_mm = 0.0,
                                             std::size_t map_points = points_on_map);
 
 /// report.html.
-[[nodiscard]] base::Result<std::string> inspectionPage(const inspect::InspectionReport& report);
+[[nodiscard]] base::Result<std::string> inspectionPage(const inspect::InspectionReport& report,
+                                                       double planned_step_over_mm = 0.0);
 
 }  // namespace cusp::cli

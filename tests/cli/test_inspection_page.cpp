@@ -67,9 +67,31 @@ TEST(InspectionDocument, CurvesFollowTheSection) {
     EXPECT_NEAR(curve["deviation_mm"][2].get<double>(), report.best_fit.deviations[0].deviation_mm, 0.51e-6);
 }
 
+TEST(InspectionDocument, SectionsHaveFormAndScallopsAgainstThePlan) {
+    // 100 points 0.1 mm apart; ridges of 3 µm every 2 mm over a slow bow.
+    inspect::InspectionReport report = reportOf(200);
+    inspect::SectionResult& section = report.sections[0];
+    section.points.clear();
+    section.arc_length_mm.clear();
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        const double x = 0.1 * i;
+        section.points.push_back(i);
+        section.arc_length_mm.push_back(x);
+        report.best_fit.deviations[i].deviation_mm =
+            0.003 * std::abs(std::sin(std::acos(-1.0) * x / 2.0)) + 1e-3 * (x - 5.0) * (x - 5.0);
+    }
+    const base::Json planned = inspectionDocument(report, 2.0)["sections"][0];
+    EXPECT_EQ(planned["scallops"]["count"], 5);  // at 1, 3, 5, 7 and 9 mm
+    EXPECT_EQ(planned["curve"]["form_mm"].size(), 100U);
+    EXPECT_GE(planned["form"]["order"].get<int>(), 2);
+    const base::Json unplanned = inspectionDocument(report)["sections"][0];
+    EXPECT_FALSE(unplanned.contains("scallops"));
+    EXPECT_TRUE(unplanned.contains("form"));
+}
+
 TEST(InspectionDocument, ThinningKeepsTheLargestAndSaysSo) {
     const inspect::InspectionReport report = reportOf(10'000);
-    const base::Json document = inspectionDocument(report, 400);
+    const base::Json document = inspectionDocument(report, 0.0, 400);
     const base::Json& map = document["map"];
     EXPECT_LE(map["x_mm"].size(), 400U);
     EXPECT_GE(map["x_mm"].size(), 350U);

@@ -89,13 +89,18 @@ double sumOfSquares(const std::vector<double>& values) {
     return sum;
 }
 
-/// Points that count as independent: n(1 − ρ)/(1 + ρ) of a first-order autoregression.
+/// Points that count as independent: n(1 − ρ)/(1 + ρ) of a first-order autoregression, but not fewer than the residuals
+/// change sign, since ridges in a row are not one event however finely they are sampled.
 double effectivePoints(const std::vector<double>& residuals) {
     const double variance = sumOfSquares(residuals);
     double covariance = 0.0;
-    for (std::size_t i = 1; i < residuals.size(); ++i) covariance += residuals[i - 1] * residuals[i];
-    const double correlation = variance > 0.0 ? std::clamp(covariance / variance, 0.0, 0.99) : 0.0;
-    return static_cast<double>(residuals.size()) * (1.0 - correlation) / (1.0 + correlation);
+    double changes = 0.0;
+    for (std::size_t i = 1; i < residuals.size(); ++i) {
+        covariance += residuals[i - 1] * residuals[i];
+        if ((residuals[i - 1] < 0.0) != (residuals[i] < 0.0)) changes += 1.0;
+    }
+    const double correlation = variance > 0.0 ? std::clamp(covariance / variance, 0.0, 1.0) : 0.0;
+    return std::max(static_cast<double>(residuals.size()) * (1.0 - correlation) / (1.0 + correlation), changes);
 }
 
 double correctedAkaike(double rss, double points, double effective, int order) {

@@ -61,7 +61,9 @@ export interface Section {
   beyond_edge?: number;
   deviation: Statistics;
   curve?: SectionCurve;
-  scallops?: Scallops;
+  /** Against the planned step-over; `null` when the points are too coarse for it, `scallops_note` says why. */
+  scallops?: Scallops | null;
+  scallops_note?: string;
 }
 
 export interface Alignment {

@@ -71,7 +71,9 @@ export function sectionsCard(input: InspectionInput): Child {
   const plots = drawn.map((section, i) => h("div", { class: "figure" }, h("h3", {}, section.label),
     section.curve.form ? h("p", { class: "soft" }, section.curve.form) : null, charts[i]?.element));
   const hint = drawn.length === 0 ? null : h("p", { class: "soft hint" }, "Point at a curve to read it off, drag to look closer, double click to see all of it.");
-  const out = card("sections", "Profile sections", side, h("div", { class: "columns curves" }, ...plots), hint, sectionTable(sections), scallopTable(sections));
+  const coarse = sections.find((s) => s.scallops_note);
+  const note = coarse ? h("p", { class: "soft" }, `No scallops: ${coarse.scallops_note}.`) : null;
+  const out = card("sections", "Profile sections", side, h("div", { class: "columns curves" }, ...plots), hint, sectionTable(sections), scallopTable(sections), note);
   out.classList.add("long");
   return out;
 }

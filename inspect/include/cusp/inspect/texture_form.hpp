@@ -40,7 +40,8 @@ struct FormFit {
 ///
 /// The order is the one with the smallest AICc (Hurvich, Tsai 1989, Biometrika 76, 297–307): n·ln(rss/points) + 2k +
 /// 2k(k + 1)/(n − k − 1), k = order + 2. Neighbours on a machined surface are alike, so n is the effective number of points,
-/// points·(1 − ρ)/(1 + ρ) with ρ the correlation of neighbours in what the highest order leaves.
+/// points·(1 − ρ)/(1 + ρ) with ρ the correlation of neighbours in what the highest order leaves, and at least the number of
+/// its changes of sign.
 /// Errors: `form.points` (sizes differ, positions do not grow, or fewer points than order + 3), `form.order`.
 [[nodiscard]] base::Result<FormFit> fitForm(std::span<const double> position_mm, std::span<const double> height_mm,
                                             const FormOptions& options);
