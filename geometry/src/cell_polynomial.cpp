@@ -36,8 +36,8 @@ void bernsteinToMiddle(Vector4* b, std::size_t n, std::size_t stride) {
 CellPolynomial::CellPolynomial(const BezierPatch& part)
     : degree_(std::max(part.degreeU(), part.degreeV())), rational_(part.isRational()) {
     assert(canHold(part));
-    const auto rows = static_cast<std::size_t>(part.degreeU() + 1);
-    const auto columns = static_cast<std::size_t>(part.degreeV() + 1);
+    const auto rows = static_cast<std::size_t>(part.degreeU()) + 1;
+    const auto columns = static_cast<std::size_t>(part.degreeV()) + 1;
     std::vector<Vector4> net = part.net();
     for (std::size_t i = 0; i < rows; ++i) bernsteinToMiddle(&net[i * columns], columns - 1, 1);
     for (std::size_t j = 0; j < columns; ++j) bernsteinToMiddle(&net[j], rows - 1, columns);

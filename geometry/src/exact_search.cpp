@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <queue>
 #include <utility>
 
@@ -45,8 +46,7 @@ public:
         while (!open_.empty() && canImprove(open_.top().distance.least_squared_mm2, limit_)) {
             const Piece piece = open_.top();
             open_.pop();
-            const PatchBounds bounds = boundPatch(piece.net);
-            if (!settle(piece, bounds)) branch(piece, bounds);
+            if (const auto bounds = boundsUnlessSettled(piece)) branch(piece, *bounds);
         }
     }
 
@@ -55,18 +55,21 @@ private:
         if (foot.squared_mm2 < limit_) limit_ = rules_.take(foot);
     }
 
-    /// Tries to finish with the piece; whatever is found on the way lowers the limit.
-    bool settle(const Piece& piece, const PatchBounds& bounds) {
+    /// Tries to finish with the piece; whatever is found on the way lowers the limit. Nothing when it is done with, else what
+    /// is known of it.
+    std::optional<PatchBounds> boundsUnlessSettled(const Piece& piece) {
         const auto [s, t] = piece.distance.likelyPlace();
         const double u = piece.box.low_u + s * (piece.box.high_u - piece.box.low_u);
         const double v = piece.box.low_v + t * (piece.box.high_v - piece.box.low_v);
         const PatchFoot foot = newtonInBox(patch_, piece.box, query_, u, v);
         offer(foot);
-        if (!canImprove(piece.distance.least_squared_mm2, limit_)) return true;
+        if (!canImprove(piece.distance.least_squared_mm2, limit_)) return std::nullopt;
+        const PatchBounds bounds = boundPatch(piece.net);
         // The origin of the net is the query.
-        if (foot.converged && bounds.isConvexFor(Vector3::Zero())) return true;
+        if (foot.converged && bounds.isConvexFor(Vector3::Zero())) return std::nullopt;
         const bool partly = rules_.coverage && rules_.coverage(piece.box) == Coverage::Partly;
-        return 2.0 * bounds.radius_mm < (partly ? edge_width_mm : search_tolerance_mm);
+        if (2.0 * bounds.radius_mm < (partly ? edge_width_mm : search_tolerance_mm)) return std::nullopt;
+        return bounds;
     }
 
     void branch(const Piece& piece, const PatchBounds& bounds) {

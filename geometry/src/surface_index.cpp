@@ -127,6 +127,7 @@ void ParametricSurface::Index::prepareQuickSearch() {
         if (detail::CellPolynomial::canHold(patches_[cells_[c].patch])) reaches[c] = finder.reachOf(c);
     });
     std::vector<const BezierPatch*> patches;
+    patches.reserve(patches_.size());
     for (const BezierPatch& patch : patches_) patches.push_back(&patch);
     quick_ = detail::QuickSearch(patches, cells_, reaches);
 }
