@@ -16,6 +16,7 @@ namespace cusp::cli {
 /// Set by the subcommand the user named.
 using Action = std::function<ExitCode()>;
 
+void addControllerCommand(CLI::App& app, Action& action);
 void addEvaluateCommand(CLI::App& app, Action& action);
 void addCapabilityCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);

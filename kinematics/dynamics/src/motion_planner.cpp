@@ -101,7 +101,8 @@ struct MotionPlanner::State {
     }
 
     Plan advance();
-    Plan fallBack();
+    Plan fallBack(std::size_t horizon_vertex);
+    Plan stopAtEveryPoint(std::size_t horizon_vertex);
     void commit(std::size_t spans, Plan& plan);
     void restAt(double s);
 };
@@ -173,7 +174,7 @@ Plan MotionPlanner::State::advance() {
         }
     }
     WindowPlan window = planWindow(run.path, last, start, limits, options.limit_use, tool);
-    if (!window.kept_limits) return fallBack();
+    if (!window.kept_limits) return fallBack(last);
     if (window.slowed) ++summary.fallbacks;
     summary.largest_tip_mm = std::max(summary.largest_tip_mm, window.tip_mm);
     summary.largest_axis_rad = std::max(summary.largest_axis_rad, window.axis_rad);
@@ -213,9 +214,10 @@ void MotionPlanner::State::commit(std::size_t spans, Plan& plan) {
 
 /// The plan before is still good: half of what is left of it is run, and from there the window is tried again; where too
 /// little is left, all of it, and the next motion starts from its rest.
-Plan MotionPlanner::State::fallBack() {
+Plan MotionPlanner::State::fallBack(std::size_t horizon_vertex) {
     Plan out;
     ++summary.fallbacks;
+    if (last_plan.pieces.empty()) return stopAtEveryPoint(horizon_vertex);
     const std::size_t left = last_plan.first_piece.size() - done_spans;
     if (left >= tail_spans) {
         commit(left / 2, out);
@@ -224,6 +226,23 @@ Plan MotionPlanner::State::fallBack() {
     commit(0, out);
     out.committed.swap(out.to_rest);
     restAt(rest_end);
+    return out;
+}
+
+/// The last resort, from rest: a closed form for every edge.
+Plan MotionPlanner::State::stopAtEveryPoint(std::size_t horizon_vertex) {
+    Plan out;
+    const Polyline& path = runs.front().path;
+    for (std::size_t i = 0; i < horizon_vertex; ++i) {
+        const PathEdge& edge = path.edges()[i];
+        const Polyline one = path.edgeAlone(i);
+        for (MotionPiece piece : planStraight(one, limits)) {
+            piece.path_mm += path.vertices()[i].s;
+            piece.block = edge.block;
+            out.committed.push_back(piece);
+        }
+    }
+    restAt(path.vertices()[horizon_vertex].s);
     return out;
 }
 

@@ -14,6 +14,8 @@ namespace {
 constexpr double coincident_mm = 1e-9;
 /// Below this share of tip motion a block counts as one of rotary axes only.
 constexpr double tip_share = 1e-6;
+/// A feed below this is none: a metre would take eleven days.
+constexpr double least_speed_mm_per_s = 1e-3;
 
 double rotaryLength(const PathPoint& a, const PathPoint& b, std::size_t axis_count) {
     double sum = 0.0;
@@ -24,7 +26,8 @@ double rotaryLength(const PathPoint& a, const PathPoint& b, std::size_t axis_cou
 /// The tip's speed limit, as one of s.
 double squaredSpeed(const PathBlock& block, double tip_mm, double length_mm) {
     const double share = tip_mm / length_mm;
-    const double speed = share > tip_share ? block.feed_mm_per_s / share : block.feed_mm_per_s;
+    const double feed = std::max(block.feed_mm_per_s, least_speed_mm_per_s);
+    const double speed = share > tip_share ? feed / share : feed;
     return speed * speed;
 }
 
@@ -57,6 +60,13 @@ void Polyline::forget(double s) {
         vertices_.pop_front();
         edges_.pop_front();
     }
+}
+
+Polyline Polyline::edgeAlone(std::size_t edge) const {
+    Polyline out(vertices_[edge].point, axis_count_);
+    out.vertices_.push_back({vertices_[edge + 1].s - vertices_[edge].s, vertices_[edge + 1].point});
+    out.edges_.push_back(edges_[edge]);
+    return out;
 }
 
 std::size_t Polyline::edgeAt(double s) const {

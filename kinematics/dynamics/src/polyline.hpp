@@ -40,6 +40,8 @@ public:
     /// Index of the edge that holds `s`; at a vertex the one after it, except at the end.
     [[nodiscard]] std::size_t edgeAt(double s) const;
     [[nodiscard]] PathPoint at(double s) const;
+    /// One edge as a path of its own, from length zero.
+    [[nodiscard]] Polyline edgeAlone(std::size_t edge) const;
     [[nodiscard]] double end() const { return vertices_.back().s; }
     [[nodiscard]] std::size_t blocks() const { return blocks_; }
 

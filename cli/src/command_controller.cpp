@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// `cusp controller`: a virtual 840D-like control behind the links, or a program run on it in virtual time.
+#include "command.hpp"
+#include "console.hpp"
+#include "control_panel.hpp"
+#include "input.hpp"
+#include "machine_lookup.hpp"
+
+#include <cusp/base/atomic_file.hpp>
+#include <cusp/base/json_report.hpp>
+#include <cusp/base/units.hpp>
+#include <cusp/comm/controller/control_host.hpp>
+#include <cusp/comm/dnc/run_transfer.hpp>
+#include <cusp/comm/link/transports.hpp>
+#include <cusp/dynamics/tool_path.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace cusp::cli {
+
+namespace {
+
+/// Between two looks at a link.
+constexpr double look_s = 0.004;
+/// What the control makes up for at once when this process was held up.
+constexpr double most_behind_s = 0.25;
+constexpr double longest_run_s = 1e6;
+constexpr std::size_t largest_program = std::size_t{256} << 20U;
+
+struct Flags {
+    std::string machine;
+    std::vector<std::string> listen;
+    std::string run;
+    std::string store;
+    std::string record;
+    std::vector<std::string> allowed;
+    std::vector<double> wcs_origin_mm;
+    double tool_length_mm = 100.0;
+    double lift_mm = 2.0;
+    double fifo_kb = 30.0;
+    double seconds = 0.0;
+    bool beyond_loopback = false;
+    bool json = false;
+};
+
+comm::ControlOptions optionsOf(const Flags& flags) {
+    comm::ControlOptions options;
+    options.tool_length_mm = flags.tool_length_mm;
+    options.lift_mm = flags.lift_mm;
+    options.fifo_bytes = static_cast<std::size_t>(flags.fifo_kb * 1024.0);
+    if (flags.wcs_origin_mm.size() == 3)
+        options.wcs_origin_mm = {flags.wcs_origin_mm[0], flags.wcs_origin_mm[1], flags.wcs_origin_mm[2]};
+    return options;
+}
+
+/// What the axes did, as a table: docs/controller.md.
+class Record {
+public:
+    Record(base::OutputTarget target, const kinematics::Machine& machine, const comm::ControlOptions& options)
+        : target_(std::move(target)), machine_(machine), tool_(machine, options.tool_length_mm, options.wcs_origin_mm) {
+        std::string head = "time_s";
+        for (const std::string& name : machine.linearNames()) head += "," + name + "_mm";
+        for (const std::string& name : machine.rotaryNames()) head += "," + name + "_deg";
+        write(head + ",tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k,line\n");
+    }
+
+    void add(const comm::ControlSample& sample) {
+        std::string row = fmt::format("{:.4f}", sample.time_s);
+        for (std::size_t i = 0; i < 3; ++i) row += fmt::format(",{:.6f}", sample.axes[i]);
+        for (std::size_t i = 0; i < machine_.rotaryCount(); ++i)
+            row += fmt::format(",{:.6f}", base::degFromRad(sample.axes[3 + i]));
+        const dynamics::ToolPlace at = tool_.placeOf(sample.axes);
+        write(row + fmt::format(",{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{}\n", at.tip_mm.x(), at.tip_mm.y(),
+                                at.tip_mm.z(), at.axis.x(), at.axis.y(), at.axis.z(), sample.line));
+    }
+
+    [[nodiscard]] base::Result<void> commit() {
+        if (failure_.hasErrors()) return base::fail(failure_);
+        return target_.commit();
+    }
+
+private:
+    void write(const std::string& text) {
+        if (failure_.hasErrors()) return;
+        if (const auto done = target_.write(text); !done) failure_ = done.error();
+    }
+    base::OutputTarget target_;
+    const kinematics::Machine& machine_;
+    dynamics::ToolPath tool_;
+    base::Diagnostics failure_;
+};
+
+base::Json toJson(const Flags& flags, const comm::ControlStatus& status) {
+    base::Json out = base::jsonReport("controller", 1);
+    out["program"] = flags.run;
+    out["finished"] = status.finished;
+    out["state"] = std::string(toText(status.state));
+    out["waiting_for"] = status.waiting_for;
+    out["time_s"] = status.time_s;
+    out["completed_line"] = status.completed_line;
+    out["resume_line"] = status.resume_line;
+    out["blocks"] = status.planning.blocks;
+    out["max_tip_off_path_mm"] = status.planning.largest_tip_mm;
+    out["max_axis_off_path_deg"] = base::degFromRad(status.planning.largest_axis_rad);
+    out["alarms"] = base::Json::array();
+    for (const comm::Alarm& alarm : status.alarms)
+        out["alarms"].push_back({{"number", alarm.number}, {"line", alarm.line}, {"text", alarm.text}});
+    return out;
+}
+
+std::string toText(const Flags& flags, const comm::ControlStatus& status) {
+    std::string out = status.finished ? fmt::format("{}: run in {:.3f} s\n", flags.run, status.time_s)
+                                      : fmt::format("{}: {} after line {}, {:.3f} s{}\n", flags.run,
+                                                    toText(status.state), status.completed_line, status.time_s,
+                                                    status.waiting_for.empty() ? "" : ": " + status.waiting_for);
+    for (const comm::Alarm& alarm : status.alarms)
+        out += fmt::format("  alarm {} at line {}: {}\n", alarm.number, alarm.line, alarm.text);
+    return out;
+}
+
+ExitCode runProgram(const Flags& flags, comm::VirtualControl& control) {
+    auto text = base::readWholeFile(flags.run, largest_program);
+    if (!text) return failWith(text.error());
+    static_cast<void>(control.select(fileNameOf(flags.run), *std::move(text)));
+    static_cast<void>(control.start());
+    constexpr double slice_s = 60.0;
+    for (double t = 0.0; t < longest_run_s; t += slice_s) {
+        if (interrupted()) return ExitCode::Interrupted;
+        control.runToRest(slice_s);
+        if (control.status().state != comm::ChannelState::Active) break;
+    }
+    if (flags.json)
+        sayJson(toJson(flags, control.status()));
+    else
+        say(toText(flags, control.status()));
+    return control.status().finished ? ExitCode::Done : ExitCode::FoundSomething;
+}
+
+using Servers = std::vector<std::unique_ptr<comm::LinkServer>>;
+
+base::Result<Servers> openServers(const Flags& flags, comm::RequestHandler& handler) {
+    Servers servers;
+    const comm::ListenOptions options{.beyond_loopback = flags.beyond_loopback, .allowed = flags.allowed};
+    for (const std::string& text : flags.listen) {
+        const auto url = comm::parseLinkUrl(text);
+        if (!url) return base::fail(url.error());
+        auto server = comm::openServer(*url, handler, options);
+        if (!server) return base::fail(server.error());
+        servers.push_back(*std::move(server));
+    }
+    return servers;
+}
+
+ExitCode serve(const Flags& flags, comm::VirtualControl& control) {
+    comm::ControlHost host(control, {.store_folder = flags.store});
+    std::random_device device;
+    comm::Receiver receiver({}, host, (std::uint64_t{device()} << 32U) | device());
+    comm::ReceiverService service(receiver);
+    const auto servers = openServers(flags, service);
+    if (!servers) return failWith(servers.error());
+    for (const auto& server : *servers) say("listening on " + server->name() + "\n");
+    ControlPanel panel(control, receiver);
+    const double begin_s = comm::transferClock_s();
+    double lost_s = 0.0;  // by which the control is behind the clock for good
+    while (!interrupted()) {
+        for (const auto& server : *servers)
+            if (const auto done = server->step(look_s / static_cast<double>(servers->size())); !done)
+                return failWith(done.error());
+        const double now_s = comm::transferClock_s();
+        const double due_s = now_s - begin_s - lost_s - control.status().time_s;
+        lost_s += std::max(0.0, due_s - most_behind_s);
+        if (due_s > 0.0) control.advance(std::min(due_s, most_behind_s));
+        receiver.tick(now_s);
+        host.follow(receiver);
+        panel.tellChanges();
+        if (!panel.listen(now_s)) return ExitCode::Done;
+        if (flags.seconds > 0.0 && now_s - begin_s > flags.seconds) return ExitCode::Done;
+    }
+    return ExitCode::Interrupted;
+}
+
+ExitCode runController(const Flags& flags) {
+    const auto machine = loadMachine(flags.machine);
+    if (!machine) return failWith(machine.error());
+    if (!flags.store.empty() && !std::filesystem::is_directory(flags.store)) {
+        base::Diagnostics report;
+        report.error("io.store", "the store is no folder: " + flags.store);
+        return failWith(report);
+    }
+    const comm::ControlOptions options = optionsOf(flags);
+    comm::VirtualControl control(machine->file, machine->model, options);
+    std::optional<Record> record;
+    if (!flags.record.empty()) {
+        auto target = base::OutputTarget::open(flags.record);
+        if (!target) return failWith(target.error());
+        record.emplace(*std::move(target), machine->model, options);
+        control.record([&record](const comm::ControlSample& sample) { record->add(sample); });
+    }
+    const ExitCode code = flags.run.empty() ? serve(flags, control) : runProgram(flags, control);
+    if (record)
+        if (const auto done = record->commit(); !done) return failWith(done.error());
+    return code;
+}
+
+}  // namespace
+
+void addControllerCommand(CLI::App& app, Action& action) {
+    CLI::App* controller = app.add_subcommand(
+        "controller", "A virtual 840D-like control: runs programs it is sent, on the axes of a machine file.");
+    const auto flags = std::make_shared<Flags>();
+    controller->add_option("-m,--machine", flags->machine, "Machine file, or the name of one that ships with cusp.")
+        ->required();
+    CLI::Option* listen = controller->add_option(
+        "--listen", flags->listen, "Where to be reached: tcp://, modbus-tcp://, modbus-rtu://, serial://, can://.");
+    CLI::Option* run = controller->add_option("--run", flags->run, "Runs this program in virtual time, and ends.");
+    run->excludes(listen);
+    controller->add_option("--store", flags->store, "Folder in which every accepted program is kept as NAME.MPF.")
+        ->needs(listen);
+    controller->add_option("--record", flags->record, "CSV of every sample of the axes and of the tool.");
+    controller->add_flag("--beyond-loopback", flags->beyond_loopback, "Listens on other addresses than loopback.");
+    controller->add_option("--allow", flags->allowed, "Address or network that may connect, besides loopback.");
+    controller->add_option("--tool-length-mm", flags->tool_length_mm, "Of every tool, gauge point to tip (100).")
+        ->check(CLI::NonNegativeNumber);
+    controller
+        ->add_option("--wcs-origin-mm", flags->wcs_origin_mm,
+                     "Origin of every work offset in machine coordinates, X Y Z (0 0 0).")
+        ->expected(3);
+    controller->add_option("--lift-mm", flags->lift_mm, "Lift along the tool axis when the FIFO runs dry (2).")
+        ->check(CLI::NonNegativeNumber);
+    controller->add_option("--fifo-kb", flags->fifo_kb, "Reload FIFO of drip feeding (30).")
+        ->check(CLI::Range(1.0, 1e5));
+    controller->add_option("--seconds", flags->seconds, "Ends after so long.")->check(CLI::NonNegativeNumber);
+    controller->add_flag("--json", flags->json, "With --run: one machine-readable summary on stdout.")->needs(run);
+    controller->callback([flags, &action] {
+        if (flags->run.empty() && flags->listen.empty())
+            throw CLI::ValidationError("controller", "needs --listen or --run");
+        action = [flags] { return runController(*flags); };
+    });
+}
+
+}  // namespace cusp::cli
