@@ -31,7 +31,7 @@ void RoundTrip::sample(double round_trip_s) {
 
 void RoundTrip::backOff() { backoff_ = std::min(backoff_ * 2.0, 64.0); }
 
-double RoundTrip::timeout_s() const { return std::min(most_s_, std::max(least_s_, base_s_) * backoff_); }
+double RoundTrip::timeoutSeconds() const { return std::min(most_s_, std::max(least_s_, base_s_) * backoff_); }
 
 Request Conversation::make(RequestType type, std::uint32_t argument, ByteView payload, bool reply_wanted,
                            double now_s) {
@@ -80,15 +80,15 @@ void Conversation::enter(std::uint32_t session) {
 }
 
 std::optional<Request> Exchange::poll(Conversation& conversation, double now_s) {
-    if (now_s < nextAt_s(conversation)) return std::nullopt;
+    if (now_s < nextAtSeconds(conversation)) return std::nullopt;
     if (tries > 0) conversation.roundTrip().backOff();
     ++tries;
     sent_s = now_s;
     return conversation.make(type, argument, payload, true, now_s);
 }
 
-double Exchange::nextAt_s(const Conversation& conversation) const {
-    return sent_s < 0.0 ? not_before_s : sent_s + conversation.roundTrip().timeout_s();
+double Exchange::nextAtSeconds(const Conversation& conversation) const {
+    return sent_s < 0.0 ? not_before_s : sent_s + conversation.roundTrip().timeoutSeconds();
 }
 
 }  // namespace cusp::comm

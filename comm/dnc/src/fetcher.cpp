@@ -67,8 +67,8 @@ void Fetcher::end(std::string code, std::string message) {
     over_ = true;
 }
 
-double Fetcher::nextWake_s(double now_s) const {
-    return std::max(now_s, reader_.nextAt_s(conversation_)) + least_wait_s;
+double Fetcher::nextWakeSeconds(double now_s) const {
+    return std::max(now_s, reader_.nextAtSeconds(conversation_)) + least_wait_s;
 }
 
 void runFetch(Fetcher& fetcher, Link& link, base::Progress& progress) {
@@ -85,7 +85,7 @@ void runFetch(Fetcher& fetcher, Link& link, base::Progress& progress) {
         if (fetcher.over()) break;
         const double now_s = transferClock_s();
         const double wait_s =
-            link.ready() ? std::clamp(fetcher.nextWake_s(now_s) - now_s, 0.0, most_wait_s) : most_wait_s;
+            link.ready() ? std::clamp(fetcher.nextWakeSeconds(now_s) - now_s, 0.0, most_wait_s) : most_wait_s;
         auto reply = link.receive(wait_s);
         if (!reply) fetcher.linkLost(words(reply.error()));
         if (reply && *reply) fetcher.receive(**reply, transferClock_s());

@@ -18,7 +18,7 @@ PieceReader::PieceReader(std::string name, std::size_t piece_bytes, std::size_t 
 
 std::optional<Request> PieceReader::poll(Conversation& conversation, double now_s) {
     if (done()) return std::nullopt;
-    const double timeout_s = conversation.roundTrip().timeout_s();
+    const double timeout_s = conversation.roundTrip().timeoutSeconds();
     std::size_t looked_at = 0;
     for (std::size_t i = first_missing_; i < pieces_.size() && looked_at < window_; ++i) {
         Piece& piece = pieces_[i];
@@ -35,14 +35,14 @@ std::optional<Request> PieceReader::poll(Conversation& conversation, double now_
     return std::nullopt;
 }
 
-double PieceReader::nextAt_s(const Conversation& conversation) const {
+double PieceReader::nextAtSeconds(const Conversation& conversation) const {
     double next_s = std::numeric_limits<double>::infinity();
     std::size_t looked_at = 0;
     for (std::size_t i = first_missing_; i < pieces_.size() && looked_at < window_; ++i) {
         if (pieces_[i].have) continue;
         ++looked_at;
-        next_s = std::min(next_s,
-                          pieces_[i].asked_s < 0.0 ? 0.0 : pieces_[i].asked_s + conversation.roundTrip().timeout_s());
+        next_s = std::min(
+            next_s, pieces_[i].asked_s < 0.0 ? 0.0 : pieces_[i].asked_s + conversation.roundTrip().timeoutSeconds());
     }
     return next_s;
 }

@@ -44,7 +44,7 @@ void runTransfer(Sender& sender, Link& link, base::Progress& progress,
         const double now_s = transferClock_s();
         // A link that is not ready wakes us when it is; the sender has nothing to say before.
         const double wait_s =
-            link.ready() ? std::clamp(sender.nextWake_s(now_s) - now_s, 0.0, most_wait_s) : most_wait_s;
+            link.ready() ? std::clamp(sender.nextWakeSeconds(now_s) - now_s, 0.0, most_wait_s) : most_wait_s;
         auto reply = link.receive(wait_s);
         if (!reply) {
             sender.linkLost(wordsOf(reply.error()));

@@ -94,7 +94,7 @@ std::optional<Request> Sender::poll(double now_s) {
 }
 
 bool Sender::checkStandstill(double now_s) {
-    const double heard_s = std::max(conversation_.lastHeard_s(), last_gain_s_);
+    const double heard_s = std::max(conversation_.lastHeardSeconds(), last_gain_s_);
     if (phase_ == Phase::Cancel && now_s > last_gain_s_ + 2.0) {
         finish(outcome_.end, outcome_.code, outcome_.message, outcome_.resumable);
         return true;
@@ -329,18 +329,18 @@ void Sender::finish(TransferEnd end, std::string code, std::string message, bool
     exchange_.reset();
 }
 
-double Sender::nextWake_s(double now_s) const {
+double Sender::nextWakeSeconds(double now_s) const {
     if (over()) return std::numeric_limits<double>::infinity();
-    double next_s = std::min(std::max(conversation_.lastHeard_s(), last_gain_s_) + options_.silence_s,
+    double next_s = std::min(std::max(conversation_.lastHeardSeconds(), last_gain_s_) + options_.silence_s,
                              last_gain_s_ + options_.standstill_s);
     if (phase_ == Phase::Cancel) next_s = std::min(next_s, last_gain_s_ + 2.0);
-    if (exchange_) next_s = std::min(next_s, exchange_->nextAt_s(conversation_));
-    if (reader_) next_s = std::min(next_s, reader_->nextAt_s(conversation_));
+    if (exchange_) next_s = std::min(next_s, exchange_->nextAtSeconds(conversation_));
+    if (reader_) next_s = std::min(next_s, reader_->nextAtSeconds(conversation_));
     if (phase_ == Phase::Stream) {
         if (timer_s_) next_s = std::min(next_s, *timer_s_);
         if (window_.underWay() == 0) next_s = std::min(next_s, last_poll_s_ + options_.poll_s);
     }
-    if (phase_ == Phase::Probe) next_s = std::min(next_s, last_probe_s_ + conversation_.roundTrip().timeout_s());
+    if (phase_ == Phase::Probe) next_s = std::min(next_s, last_probe_s_ + conversation_.roundTrip().timeoutSeconds());
     // Never the present moment itself: whoever waits until then must get on.
     constexpr double least_wait_s = 1e-4;
     return std::max(next_s, now_s) + least_wait_s;

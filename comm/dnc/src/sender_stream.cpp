@@ -17,7 +17,7 @@ constexpr double reordering = 1.25;
 }  // namespace
 
 std::optional<Request> Sender::pollProbes(double now_s) {
-    const double timeout_s = conversation_.roundTrip().timeout_s();
+    const double timeout_s = conversation_.roundTrip().timeoutSeconds();
     const bool waited_enough = probes_sent_ > 0 && now_s > last_probe_s_ + timeout_s;
     if (probes_sent_ < options_.probes) {
         const std::size_t under_way = probes_sent_ - probes_back_;
@@ -117,7 +117,7 @@ std::optional<Request> Sender::nextChunk(double now_s) {
                               now_s);
 }
 
-void Sender::startTimer(double now_s) { timer_s_ = now_s + conversation_.roundTrip().timeout_s(); }
+void Sender::startTimer(double now_s) { timer_s_ = now_s + conversation_.roundTrip().timeoutSeconds(); }
 
 void Sender::lost() {
     good_chunks_ = 0;
@@ -168,7 +168,7 @@ void Sender::onStream(const Acknowledgement& reply, double now_s) {
         last_poll_s_ = now_s;
     }
     const bool hole = reply.reason == Reason::Gap || reply.reason == Reason::BadChecksum;
-    if (hole && window_.loseFirst(now_s - (reordering * conversation_.roundTrip().smoothed_s()))) lost();
+    if (hole && window_.loseFirst(now_s - (reordering * conversation_.roundTrip().smoothedSeconds()))) lost();
     // A drip feed waits for the operator's start and for the FIFO: that is no standstill.
     const bool waits = options_.mode == TransferMode::Drip && free_bytes_ < chunk_bytes_;
     if (waits) last_gain_s_ = now_s;

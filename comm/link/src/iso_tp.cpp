@@ -110,7 +110,7 @@ std::optional<CanPayload> IsoTpEndpoint::poll(double now_s) {
     return startMessage(now_s);
 }
 
-double IsoTpEndpoint::nextWake_s() const {
+double IsoTpEndpoint::nextWakeSeconds() const {
     double next_s = std::numeric_limits<double>::infinity();
     if (incoming_bytes_ > 0) next_s = incoming_due_s_;
     if (flow_control_) return 0.0;

@@ -44,13 +44,12 @@ ModbusFault readRange(ByteView pdu, ModbusQuery& query) {
 
 ModbusQueryResult parseModbusQuery(ByteView pdu) {
     ModbusQueryResult out;
-    if (pdu.empty()) {
-        out.fault = ModbusFault::IllegalFunction;
-    } else if (pdu[0] == read_holding) {
+    const std::uint8_t function = pdu.empty() ? std::uint8_t{0} : pdu[0];
+    if (function == read_holding) {
         out.fault = pdu.size() == 5 ? readRange(pdu, out.query) : ModbusFault::IllegalValue;
-    } else if (pdu[0] == write_multiple) {
+    } else if (function == write_multiple) {
         out.fault = readWritten(pdu, 1, most_written_registers, out.query);
-    } else if (pdu[0] == read_write_multiple) {
+    } else if (function == read_write_multiple) {
         out.fault = pdu.size() > 9 ? readRange(pdu, out.query) : ModbusFault::IllegalValue;
         if (out.fault == ModbusFault::None) out.fault = readWritten(pdu, 5, most_exchanged_written, out.query);
     } else {

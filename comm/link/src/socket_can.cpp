@@ -125,7 +125,7 @@ base::Result<void> RawChannel::step(double timeout_s) {
         if (now_s >= until_s || (moved && !endpoint_.sending())) return {};
         if (moved && !blocked) continue;
         // A full queue tells nobody when it drains; a separation time ends by the clock.
-        const double wake_s = blocked ? now_s + 0.001 : std::max(now_s, endpoint_.nextWake_s());
+        const double wake_s = blocked ? now_s + 0.001 : std::max(now_s, endpoint_.nextWakeSeconds());
         waitFor(socket_.get(), false, std::min(until_s, wake_s) - now_s);
     }
 }

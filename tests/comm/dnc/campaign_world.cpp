@@ -114,12 +114,12 @@ void World::connect(const Faults& faults) {
     }
     const auto* const present = medium.get();
     medium->peer = [this](ByteView request) {
-        return receiver_ ? receiver_->handle(request, timeline_.now_s()) : Bytes();
+        return receiver_ ? receiver_->handle(request, timeline_.nowSeconds()) : Bytes();
     };
     medium->peer_area = [this](ReplyArea area) { return receiver_ ? receiver_->area(area) : Bytes(); };
     medium->on_reply = [this, present](ByteView reply) {
         if (media_.back().get() != present) return;
-        sender_->receive(reply, timeline_.now_s());
+        sender_->receive(reply, timeline_.nowSeconds());
         pump();
     };
     medium->on_ready = [this, present] {
@@ -142,18 +142,18 @@ void World::newSender() {
 void World::pump() {
     Medium& medium = *media_.back();
     while (!sender_->over() && medium.ready()) {
-        const auto request = sender_->poll(timeline_.now_s());
+        const auto request = sender_->poll(timeline_.nowSeconds());
         if (!request) break;
         medium.send(*request);
     }
-    const double next_s = sender_->nextWake_s(timeline_.now_s());
-    if (sender_->over() || (wake_s_ > timeline_.now_s() && wake_s_ <= next_s)) return;
+    const double next_s = sender_->nextWakeSeconds(timeline_.nowSeconds());
+    if (sender_->over() || (wake_s_ > timeline_.nowSeconds() && wake_s_ <= next_s)) return;
     wake_s_ = next_s;
     timeline_.at(next_s, [this] { pump(); });
 }
 
 void World::operate() {
-    const double now_s = timeline_.now_s();
+    const double now_s = timeline_.nowSeconds();
     if (receiver_) {
         receiver_->tick(now_s);
         // The operator starts what is armed, or lets the sender do it.
@@ -191,7 +191,7 @@ void World::operate() {
 bool World::drive(double limit_s) {
     pump();
     while (!sender_->over()) {
-        if (++events_ > allowed_events || timeline_.now_s() > limit_s || !timeline_.step()) return false;
+        if (++events_ > allowed_events || timeline_.nowSeconds() > limit_s || !timeline_.step()) return false;
     }
     return true;
 }
@@ -199,8 +199,8 @@ bool World::drive(double limit_s) {
 bool World::run() {
     if (!drive(allowed_s)) return false;
     // Whoever was delivered drip-fed goes on running; and what is still under way may yet arrive.
-    const double settle_s = timeline_.now_s() + 20.0;
-    while (timeline_.now_s() < settle_s && timeline_.step()) {
+    const double settle_s = timeline_.nowSeconds() + 20.0;
+    while (timeline_.nowSeconds() < settle_s && timeline_.step()) {
     }
     return true;
 }
@@ -209,14 +209,14 @@ bool World::runAgain() {
     // The operator has looked, and presses RESET on what did not end well.
     if (!receiver_) boot();
     receiver_->reset(true);
-    receiver_->enableStart(timeline_.now_s(), 5.0);
+    receiver_->enableStart(timeline_.nowSeconds(), 5.0);
     host_.fifo.clear();
     executed_.clear();
     host_.starts = 0;
     schedule_.line_s = operator_step_s;  // slow enough for the slowest of the links
     connect(Faults{});
     newSender();
-    return drive(timeline_.now_s() + allowed_s);
+    return drive(timeline_.nowSeconds() + allowed_s);
 }
 
 std::string World::violation() const {

@@ -86,7 +86,7 @@ void answerSender(ByteView rest) {
         Bytes bytes = encode(reply);
         append(bytes, piece.subspan(13));
         sender.receive(bytes, now_s);
-        if (!(sender.nextWake_s(now_s) > now_s)) std::abort();
+        if (!(sender.nextWakeSeconds(now_s) > now_s)) std::abort();
     }
     if (sender.over() && sender.outcome().end != TransferEnd::Delivered && sender.outcome().message.empty())
         std::abort();

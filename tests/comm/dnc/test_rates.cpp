@@ -30,23 +30,23 @@ double rateOver(const Rates& rates, std::size_t bytes, Sender::Phase* last = nul
     host.store_bytes = bytes * 2;
     Receiver receiver({}, host, 1);
     SomeMedium medium(timeline, {}, base::Random(1), rates);
-    medium.peer = [&](ByteView request) { return receiver.handle(request, timeline.now_s()); };
+    medium.peer = [&](ByteView request) { return receiver.handle(request, timeline.nowSeconds()); };
     medium.peer_area = [&](ReplyArea area) { return receiver.area(area); };
     Sender sender({.name = "P.MPF", .text = linesOf(bytes)}, {}, medium.traits());
     double wake_s = -1.0;
     std::function<void()> pump = [&] {
         while (!sender.over() && medium.ready()) {
-            const auto request = sender.poll(timeline.now_s());
+            const auto request = sender.poll(timeline.nowSeconds());
             if (!request) break;
             medium.send(*request);
         }
-        const double next_s = sender.nextWake_s(timeline.now_s());
-        if (sender.over() || (wake_s > timeline.now_s() && wake_s <= next_s)) return;
+        const double next_s = sender.nextWakeSeconds(timeline.nowSeconds());
+        if (sender.over() || (wake_s > timeline.nowSeconds() && wake_s <= next_s)) return;
         wake_s = next_s;
         timeline.at(next_s, pump);
     };
     medium.on_reply = [&](ByteView reply) {
-        sender.receive(reply, timeline.now_s());
+        sender.receive(reply, timeline.nowSeconds());
         pump();
     };
     medium.on_ready = pump;
@@ -56,7 +56,7 @@ double rateOver(const Rates& rates, std::size_t bytes, Sender::Phase* last = nul
     EXPECT_EQ(sender.outcome().end, TransferEnd::Delivered) << sender.outcome().message;
     EXPECT_EQ(sender.statistics().chunks_repeated, 0U);
     if (last != nullptr) *last = sender.phase();
-    return static_cast<double>(sender.totalBytes()) / timeline.now_s();
+    return static_cast<double>(sender.totalBytes()) / timeline.nowSeconds();
 }
 
 void expectShare(const char* link, double rate, double limit) {
@@ -72,7 +72,7 @@ TEST(Rates, ModbusRtuAt115200) {
     const RegisterRates rates;
     Timeline timeline;
     const RegisterMedium medium(timeline, {}, base::Random(1), rates);
-    const double limit = 228.0 / medium.transaction_s(9 + 246, 8);
+    const double limit = 228.0 / medium.transactionSeconds(9 + 246, 8);
     expectShare("Modbus RTU 115200", rateOver<RegisterMedium>(rates, 200'000), limit);
 }
 
@@ -82,7 +82,7 @@ TEST(Rates, CanAtOneMegabit) {
         rates.fd = fd;
         Timeline timeline;
         const CanMedium medium(timeline, {}, base::Random(1), rates);
-        const double limit = fd ? 63.0 / medium.frame_s(64) : 7.0 / medium.frame_s(8);
+        const double limit = fd ? 63.0 / medium.frameSeconds(64) : 7.0 / medium.frameSeconds(8);
         expectShare(fd ? "CAN FD 1M/5M" : "CAN 1 Mbit/s", rateOver<CanMedium>(rates, 1'000'000), limit);
     }
 }

@@ -9,7 +9,7 @@
 namespace cusp::comm::test {
 
 void Medium::carry(Direction direction, double arrival_s, Bytes unit, const std::function<void(Bytes)>& arrive) {
-    if (faults_.half_open.holds(timeline_.now_s()) && faults_.half_open_direction == direction) return;
+    if (faults_.half_open.holds(timeline_.nowSeconds()) && faults_.half_open_direction == direction) return;
     if (random_.chance(faults_.loss)) return;
     const int copies = random_.chance(faults_.duplication) ? 2 : 1;
     for (int copy = 0; copy < copies; ++copy) {
@@ -44,14 +44,14 @@ LinkTraits StreamMedium::traits() const {
 }
 
 bool StreamMedium::ready() const {
-    const double waiting_s = line_free_s_[0] - timeline_.now_s();
+    const double waiting_s = line_free_s_[0] - timeline_.nowSeconds();
     return waiting_s * rates_.bytes_per_s < static_cast<double>(rates_.buffer_bytes);
 }
 
 void StreamMedium::transmit(Direction direction, ByteView message) {
     const Bytes framed = frameForStream(message);
     double& free_s = line_free_s_[direction == Direction::ToControl ? 0 : 1];
-    free_s = std::max(free_s, timeline_.now_s());
+    free_s = std::max(free_s, timeline_.nowSeconds());
     for (std::size_t at = 0; at < framed.size(); at += rates_.segment_bytes) {
         const std::size_t size = std::min(rates_.segment_bytes, framed.size() - at);
         free_s += static_cast<double>(size) / rates_.bytes_per_s;
@@ -60,7 +60,8 @@ void StreamMedium::transmit(Direction direction, ByteView message) {
               [this, direction](const Bytes& bytes) { arrive(direction, bytes); });
     }
     const double drained_s = free_s - (static_cast<double>(rates_.buffer_bytes - 1) / rates_.bytes_per_s);
-    if (direction == Direction::ToControl) timeline_.at(std::max(drained_s, timeline_.now_s()), [this] { on_ready(); });
+    if (direction == Direction::ToControl)
+        timeline_.at(std::max(drained_s, timeline_.nowSeconds()), [this] { on_ready(); });
 }
 
 void StreamMedium::arrive(Direction direction, ByteView bytes) {
@@ -84,7 +85,7 @@ LinkTraits RegisterMedium::traits() const {
     return out;
 }
 
-double RegisterMedium::transaction_s(std::size_t request_bytes, std::size_t reply_bytes) const {
+double RegisterMedium::transactionSeconds(std::size_t request_bytes, std::size_t reply_bytes) const {
     return (static_cast<double>(request_bytes + reply_bytes) / rates_.bytes_per_s) + (2.0 * rates_.silence_s) +
            (2.0 * rates_.latency_s);
 }
@@ -95,18 +96,18 @@ void RegisterMedium::transact(const Registers& written, ReplyArea area, std::siz
     const bool both = !written.empty() && read_registers > 0;
     const std::size_t request_bytes = both ? 13 + (2 * written.size()) : written.empty() ? 8 : 9 + (2 * written.size());
     const std::size_t reply_bytes = read_registers > 0 ? 5 + (2 * read_registers) : 8;
-    const double half_s = transaction_s(request_bytes, reply_bytes) / 2.0;
+    const double half_s = transactionSeconds(request_bytes, reply_bytes) / 2.0;
     // The client waits for one reply; whatever comes after its timeout, or twice, is not looked at.
     auto open = std::make_shared<bool>(true);
     timeline_.after((2.0 * half_s) + rates_.reply_timeout_s, [open, done] {
         if (std::exchange(*open, false)) done(nullptr);
     });
-    carry(Direction::ToControl, timeline_.now_s() + half_s, toBytes(written), [=, this](const Bytes& bytes) {
+    carry(Direction::ToControl, timeline_.nowSeconds() + half_s, toBytes(written), [=, this](const Bytes& bytes) {
         if (!bytes.empty()) static_cast<void>(peer(bytes));
         Bytes image = read_registers > 0 ? peer_area(area) : Bytes(2);
         if (image.empty()) return;
         image.resize(2 * std::max<std::size_t>(1, read_registers));
-        carry(Direction::ToSender, timeline_.now_s() + half_s, image, [open, done](const Bytes& read) {
+        carry(Direction::ToSender, timeline_.nowSeconds() + half_s, image, [open, done](const Bytes& read) {
             const Registers registers = toRegisters(read);
             if (std::exchange(*open, false)) done(&registers);
         });
@@ -142,7 +143,7 @@ LinkTraits CanMedium::traits() const {
     return out;
 }
 
-double CanMedium::frame_s(std::size_t payload_bytes) const {
+double CanMedium::frameSeconds(std::size_t payload_bytes) const {
     // Classic: start 1, identifier and control 18, CRC 15, delimiters and ACK 3, end 7, gap 3 (ISO 11898-1).
     if (!rates_.fd) return (47.0 + (8.0 * static_cast<double>(payload_bytes))) / rates_.nominal_bits_per_s;
     // FD with rate switch: 30 bits slow, the rest fast: ESI, DLC 5, data, stuff count 4, CRC 21 with its 7 fixed bits.
@@ -157,7 +158,7 @@ void CanMedium::send(const Request& request) {
 
 void CanMedium::pump() {
     if (bus_busy_) return;
-    const double now_s = timeline_.now_s();
+    const double now_s = timeline_.nowSeconds();
     IsoTpEndpoint* const order[2] = {control_last_ ? &sender_ : &control_, control_last_ ? &control_ : &sender_};
     for (IsoTpEndpoint* end : order) {
         auto frame = end->poll(now_s);
@@ -165,7 +166,7 @@ void CanMedium::pump() {
         const Direction direction = end == &sender_ ? Direction::ToControl : Direction::ToSender;
         control_last_ = end == &control_;
         bus_busy_ = true;
-        const double end_s = now_s + frame_s(frame->size());
+        const double end_s = now_s + frameSeconds(frame->size());
         busy_s_ += end_s - now_s;
         carry(direction, end_s, *std::move(frame), [this, direction](const Bytes& bytes) { arrive(direction, bytes); });
         timeline_.at(end_s, [this] {
@@ -175,7 +176,7 @@ void CanMedium::pump() {
         });
         return;
     }
-    const double next_s = std::min(sender_.nextWake_s(), control_.nextWake_s());
+    const double next_s = std::min(sender_.nextWakeSeconds(), control_.nextWakeSeconds());
     // One alarm clock: not a new one for each look at it.
     if (next_s < 1e9 && (wake_s_ <= now_s || next_s < wake_s_)) {
         wake_s_ = std::max(next_s, now_s + 1e-5);
@@ -185,7 +186,7 @@ void CanMedium::pump() {
 
 void CanMedium::arrive(Direction direction, const Bytes& frame) {
     IsoTpEndpoint& end = direction == Direction::ToControl ? control_ : sender_;
-    end.receive(frame, timeline_.now_s());
+    end.receive(frame, timeline_.nowSeconds());
     while (const auto message = end.next()) {
         if (direction == Direction::ToSender) {
             on_reply(*message);

@@ -31,7 +31,7 @@ public:
         event.what();
         return true;
     }
-    [[nodiscard]] double now_s() const { return now_s_; }
+    [[nodiscard]] double nowSeconds() const { return now_s_; }
 
 private:
     struct Event {
@@ -144,7 +144,7 @@ public:
     void send(const Request& request) override;
 
     /// What one transaction takes on the wire, both frames and both silences.
-    [[nodiscard]] double transaction_s(std::size_t request_bytes, std::size_t reply_bytes) const;
+    [[nodiscard]] double transactionSeconds(std::size_t request_bytes, std::size_t reply_bytes) const;
 
 private:
     void transact(const Registers& written, ReplyArea area, std::size_t read_registers,
@@ -169,8 +169,8 @@ public:
     void send(const Request& request) override;
 
     /// Bits of a data frame with 11-bit identifier and its gap, without stuff bits.
-    [[nodiscard]] double frame_s(std::size_t payload_bytes) const;
-    [[nodiscard]] double busy_s() const { return busy_s_; }
+    [[nodiscard]] double frameSeconds(std::size_t payload_bytes) const;
+    [[nodiscard]] double busySeconds() const { return busy_s_; }
 
 private:
     void pump();

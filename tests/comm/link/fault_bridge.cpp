@@ -70,7 +70,7 @@ public:
         }
         return true;
     }
-    double nextDue_s() const { return queue_.empty() ? clockSeconds() + 0.02 : queue_.front().due_s; }
+    double nextDueSeconds() const { return queue_.empty() ? clockSeconds() + 0.02 : queue_.front().due_s; }
     bool busyLine() const { return free_s_ > clockSeconds() + 0.002; }
     int from() const { return from_; }
 
@@ -132,7 +132,7 @@ PtyBridge::PtyBridge(BridgeFaults faults, std::uint64_t seed) {
             pollfd waiting[2];
             for (int i = 0; i < 2; ++i) {
                 lanes[i].give();
-                due_s = std::min(due_s, lanes[i].nextDue_s());
+                due_s = std::min(due_s, lanes[i].nextDueSeconds());
                 if (lanes[i].busyLine()) due_s = std::min(due_s, clockSeconds() + 0.002);
                 waiting[i] = {lanes[i].from(), static_cast<short>(lanes[i].busyLine() ? 0 : POLLIN), 0};
             }
@@ -182,7 +182,7 @@ void TcpBridge::serve(std::uint16_t target_port, BridgeFaults faults, std::uint6
         std::vector<pollfd> waiting{{listener_, POLLIN, 0}};
         double due_s = clockSeconds() + 0.02;
         for (Pair& pair : pairs) {
-            due_s = std::min({due_s, pair.out.nextDue_s(), pair.back.nextDue_s()});
+            due_s = std::min({due_s, pair.out.nextDueSeconds(), pair.back.nextDueSeconds()});
             for (const int end : pair.ends) waiting.push_back({end, POLLIN, 0});
         }
         const timespec timeout = until(due_s);

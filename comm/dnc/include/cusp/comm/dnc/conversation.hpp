@@ -21,8 +21,8 @@ public:
     void backOff();
     /// After progress: back to what was measured.
     void relax() { backoff_ = 1.0; }
-    [[nodiscard]] double timeout_s() const;
-    [[nodiscard]] double smoothed_s() const { return smoothed_s_; }
+    [[nodiscard]] double timeoutSeconds() const;
+    [[nodiscard]] double smoothedSeconds() const { return smoothed_s_; }
 
 private:
     double least_s_;
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> argumentOf(std::uint16_t tag) const;
 
     [[nodiscard]] std::uint32_t session() const { return session_; }
-    [[nodiscard]] double lastHeard_s() const { return last_heard_s_; }
+    [[nodiscard]] double lastHeardSeconds() const { return last_heard_s_; }
     [[nodiscard]] std::uint64_t damagedReplies() const { return damaged_; }
     [[nodiscard]] RoundTrip& roundTrip() { return round_trip_; }
     [[nodiscard]] const RoundTrip& roundTrip() const { return round_trip_; }
@@ -86,7 +86,7 @@ struct Exchange {
 
     /// The request, when it is time for it (again).
     [[nodiscard]] std::optional<Request> poll(Conversation& conversation, double now_s);
-    [[nodiscard]] double nextAt_s(const Conversation& conversation) const;
+    [[nodiscard]] double nextAtSeconds(const Conversation& conversation) const;
 };
 
 }  // namespace cusp::comm

@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::optional<Request> poll(double now_s);
     void receive(ByteView reply, double now_s);
     void tick(double now_s);
-    [[nodiscard]] double nextWake_s(double now_s) const;
+    [[nodiscard]] double nextWakeSeconds(double now_s) const;
     void linkLost(const std::string& reason) { end("io.link-lost", "the link broke: " + reason); }
 
     [[nodiscard]] bool over() const { return over_; }

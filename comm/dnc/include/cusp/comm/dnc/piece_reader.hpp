@@ -24,7 +24,7 @@ public:
     [[nodiscard]] bool done() const { return total_ && have_ == pieces_.size(); }
     [[nodiscard]] const Bytes& bytes() const { return bytes_; }
     [[nodiscard]] std::uint32_t received() const { return received_; }
-    [[nodiscard]] double nextAt_s(const Conversation& conversation) const;
+    [[nodiscard]] double nextAtSeconds(const Conversation& conversation) const;
 
 private:
     struct Piece {

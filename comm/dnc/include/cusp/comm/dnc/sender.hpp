@@ -109,7 +109,7 @@ public:
     /// Gives up when nothing was heard or gained for too long; `poll` does it too.
     void tick(double now_s) { static_cast<void>(over() || checkStandstill(now_s)); }
     /// When `poll` is to be called at the latest, unless a reply comes before.
-    [[nodiscard]] double nextWake_s(double now_s) const;
+    [[nodiscard]] double nextWakeSeconds(double now_s) const;
     /// The transport is gone; `reason` for the message.
     void linkLost(const std::string& reason);
     /// Takes the transfer back, if it can still be; what arrived is kept for a resume.

@@ -37,7 +37,7 @@ public:
     void receive(ByteView frame, double now_s);
     [[nodiscard]] std::optional<Bytes> next();
     /// When `poll` is to be called again though no frame came: a separation time or a timeout.
-    [[nodiscard]] double nextWake_s() const;
+    [[nodiscard]] double nextWakeSeconds() const;
     [[nodiscard]] bool sending() const { return !queue_.empty() || flow_control_.has_value(); }
 
 private:
