@@ -30,7 +30,8 @@ class SocketCan : public ::testing::TestWithParam<Pairing> {
 protected:
     void SetUp() override {
         if (::if_nametoindex("vcan0") == 0)
-            GTEST_SKIP() << "no CAN interface vcan0 on this machine (tests/comm/peers/can_machine.sh starts one that has it)";
+            GTEST_SKIP()
+                << "no CAN interface vcan0 on this machine (tests/comm/peers/can_machine.sh starts one that has it)";
     }
 };
 
@@ -42,7 +43,8 @@ TEST_P(SocketCan, CarriesAndComparesAProgram) {
     ASSERT_TRUE(link.has_value()) << base::toText(link.error());
     Sender sender({.name = "P.MPF", .text = programText()}, {.compare = true, .arm = true}, (*link)->traits());
     runTransfer(sender, **link, base::noProgress());
-    EXPECT_EQ(sender.outcome().end, TransferEnd::Delivered) << sender.outcome().code << ": " << sender.outcome().message;
+    EXPECT_EQ(sender.outcome().end, TransferEnd::Delivered)
+        << sender.outcome().code << ": " << sender.outcome().message;
     EXPECT_TRUE(sender.outcome().compared);
     control.stop();
     EXPECT_TRUE(control.host.programs["P.MPF"] == programText());
@@ -70,7 +72,8 @@ TEST_F(SocketCan, PythonsSocketsReceiveAProgram) {
     ASSERT_TRUE(link.has_value()) << base::toText(link.error());
     Sender sender({.name = "P.MPF", .text = programText()}, {.arm = true}, (*link)->traits());
     runTransfer(sender, **link, base::noProgress());
-    EXPECT_EQ(sender.outcome().end, TransferEnd::Delivered) << sender.outcome().code << ": " << sender.outcome().message;
+    EXPECT_EQ(sender.outcome().end, TransferEnd::Delivered)
+        << sender.outcome().code << ": " << sender.outcome().message;
     EXPECT_STREQ(std::fgets(line, sizeof line, pipe), ("verified " + base::sha256Hex(programText()) + "\n").c_str());
     EXPECT_EQ(::pclose(pipe), 0);
 }
