@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: The cusp authors
+// SPDX-License-Identifier: Apache-2.0
+// The order of an inspection: what the points are, where they lie, how far off they are, and whether that can be trusted.
+#include <cusp/inspect/inspection.hpp>
+
+#include "plausibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <numbers>
+
+namespace cusp::inspect {
+namespace {
+
+constexpr double most_outliers = 0.05;
+
+AlignmentOptions alignmentOptions(const InspectionOptions& options, double offset_mm) {
+    AlignmentOptions out;
+    out.fit = options.fit;
+    out.locked = options.locked;
+    out.loss = options.loss;
+    out.loss_scale_mm = options.loss_scale_mm;
+    out.start = options.start;
+    out.offset_mm = offset_mm;
+    return out;
+}
+
+/// The deviations that count, with the measured points they belong to.
+struct Counted {
+    std::vector<double> values;
+    std::vector<Vector3> positions;
+    std::vector<std::uint32_t> points;
+};
+
+Counted countedOf(const std::vector<PointDeviation>& deviations, double edge_tolerance_mm) {
+    Counted out;
+    for (std::size_t i = 0; i < deviations.size(); ++i) {
+        if (deviations[i].beyond_edge_mm > edge_tolerance_mm) continue;
+        out.values.push_back(deviations[i].deviation_mm);
+        out.positions.push_back(deviations[i].nominal);
+        out.points.push_back(static_cast<std::uint32_t>(i));
+    }
+    return out;
+}
+
+Uncertainty uncertaintyOf(const Counted& counted, const InspectionOptions& options, std::size_t free_freedoms) {
+    if (options.uncertainty_mm) return {*options.uncertainty_mm, true, "stated"};
+    Uncertainty out = uncertaintyFromNeighbours(counted.positions, counted.values);
+    const double point = out.standard_mm;
+    // A form error of full width F, equally likely everywhere within it.
+    const double form = options.probe_form_error_mm / std::sqrt(12.0);
+    const double pose = point * std::sqrt(static_cast<double>(free_freedoms) /
+                                          static_cast<double>(std::max<std::size_t>(counted.values.size(), 1)));
+    out.standard_mm = std::sqrt(point * point + form * form + pose * pose);
+    return out;
+}
+
+class Inspector {
+public:
+    Inspector(const geometry::NominalShape& nominal, const InspectionOptions& options, base::Diagnostics& report)
+        : nominal_(nominal), options_(options), report_(report) {}
+
+    base::Result<InspectionReport> run(MeasuredPoints points) {
+        if (auto problem = checkUnit(points, nominal_)) return base::fail(*std::move(problem));
+        const auto probe = decideProbe(points, nominal_, options_, report_);
+        if (!probe) return base::fail(probe.error());
+        auto alignment = align(points.positions, nominal_, alignmentOptions(options_, probe->radius_mm));
+        if (!alignment) return base::fail(located(alignment.error(), points.source));
+        out_.points = std::move(points);
+        out_.points_file = out_.points.source;
+        out_.kind = probe->kind;
+        out_.kind_source = probe->source;
+        out_.probe_radius_mm = probe->radius_mm;
+        out_.alignment = *std::move(alignment);
+        out_.judged_in_datum = options_.judge_in_datum;
+        out_.outlier_rule = options_.outlier_rule;
+        out_.edge_tolerance_mm = options_.edge_tolerance_mm;
+        evaluate(out_.datum, options_.start, 0);
+        if (options_.fit == FitKind::None)
+            out_.best_fit = out_.datum;
+        else
+            evaluate(out_.best_fit, out_.alignment.nominal_from_measured,
+                     static_cast<std::size_t>(std::count(options_.locked.begin(), options_.locked.end(), false)));
+        cut();
+        sayWeakFreedoms();
+        doubt();
+        return std::move(out_);
+    }
+
+private:
+    static base::Diagnostics located(const base::Diagnostics& problems, const std::string& file) {
+        base::Diagnostics out;
+        for (base::Diagnostic item : problems) {
+            item.where.file = file;
+            out.add(std::move(item));
+        }
+        return out;
+    }
+
+    void evaluate(Evaluation& evaluation, const RigidTransform& pose, std::size_t free_freedoms) {
+        evaluation.nominal_from_measured = pose;
+        evaluation.deviations = deviationsOf(out_.points.positions, pose, nominal_, out_.probe_radius_mm);
+        const Counted counted = countedOf(evaluation.deviations, options_.edge_tolerance_mm);
+        evaluation.beyond_edge = evaluation.deviations.size() - counted.values.size();
+        evaluation.statistics = statisticsOf(counted.values);
+        evaluation.histogram = histogramOf(counted.values);
+        if (counted.values.empty()) return;
+        const double limit_mm = outlierDistance(evaluation.statistics, options_.outlier_rule);
+        for (std::size_t k = 0; k < counted.values.size(); ++k)
+            if (std::abs(counted.values[k] - evaluation.statistics.median_mm) > limit_mm)
+                evaluation.outliers.push_back(counted.points[k]);
+        evaluation.statistics.min_point = counted.points[evaluation.statistics.min_point];
+        evaluation.statistics.max_point = counted.points[evaluation.statistics.max_point];
+        if (!options_.limits) return;
+        evaluation.decision =
+            decide(counted.values, *options_.limits, uncertaintyOf(counted, options_, free_freedoms), options_.rule);
+        evaluation.decision.worst_point = counted.points[evaluation.decision.worst_point];
+    }
+
+    void cut() {
+        const auto& deviations = out_.judged().deviations;
+        out_.sections =
+            options_.sections
+                ? cutSections(*options_.sections, out_.points, deviations, nominal_, options_.edge_tolerance_mm)
+                : measuredSections(out_.points, deviations, nominal_, options_.edge_tolerance_mm);
+        for (const SectionResult& section : out_.sections)
+            if (section.points.empty())
+                warn("inspect.empty-section", fmt::format("section {}: no point lies there", section.label));
+    }
+
+    void sayWeakFreedoms() {
+        if (out_.alignment.weak.empty()) return;
+        std::vector<std::string_view> names;
+        std::transform(out_.alignment.weak.begin(), out_.alignment.weak.end(), std::back_inserter(names), freedomName);
+        base::Location where;
+        where.file = out_.points.source;
+        report_.note(
+            "inspect.weak-freedoms",
+            fmt::format("weakly determined by these points: {}; the deviations along the normal are not affected",
+                        fmt::join(names, ", ")),
+            where);
+    }
+
+    /// What makes the result doubtful is said, and the decision withheld.
+    void doubt() {
+        const Evaluation& judged = out_.judged();
+        if (judged.statistics.count == 0)
+            return withhold("inspect.beyond-edge", "no point lies on the nominal: all are beyond its edges");
+        if (2 * judged.beyond_edge > judged.deviations.size())
+            withhold("inspect.beyond-edge", fmt::format("{} of {} points lie beyond the edges of the nominal",
+                                                        judged.beyond_edge, judged.deviations.size()));
+        else if (judged.beyond_edge > 0)
+            warn("inspect.beyond-edge",
+                 fmt::format("{} points lie more than {} mm beyond an edge of the nominal and do not "
+                             "count",
+                             judged.beyond_edge, options_.edge_tolerance_mm));
+        const double rms_mm = judged.statistics.rms_mm;
+        if (rms_mm > poorFitLimit(nominal_))
+            return withhold("inspect.poor-fit",
+                            fmt::format("the points do not fit the nominal (rms {:.3g} mm): {}", rms_mm,
+                                        explainPoorFit(out_.points, nominal_, out_.probe_radius_mm, rms_mm)));
+        const double share = static_cast<double>(judged.outliers.size()) / static_cast<double>(judged.statistics.count);
+        if (share > most_outliers && options_.loss == Loss::Squared)
+            withhold("inspect.many-outliers",
+                     fmt::format(
+                         "{:.0f} % of the points are outliers (farther than {:.3g} mm from the median): they pull the "
+                         "fit; look at them, or fit with --loss tukey",
+                         100.0 * share, outlierDistance(judged.statistics, options_.outlier_rule)));
+        else if (!judged.outliers.empty())
+            warn("inspect.outliers",
+                 fmt::format("{} of {} points are outliers (farther than {:.3g} mm from the median); they count",
+                             judged.outliers.size(), judged.statistics.count,
+                             outlierDistance(judged.statistics, options_.outlier_rule)));
+    }
+
+    void withhold(std::string_view code, const std::string& message) {
+        warn(code, message);
+        for (Evaluation* evaluation : {&out_.datum, &out_.best_fit}) {
+            if (evaluation->decision.verdict == Verdict::NotAsked && !options_.limits) continue;
+            evaluation->decision.verdict = Verdict::Undecided;
+            evaluation->decision.reason = "withheld: " + message;
+        }
+    }
+
+    void warn(std::string_view code, const std::string& message) {
+        base::Location where;
+        where.file = out_.points.source;
+        report_.warning(code, message, where);
+    }
+
+    const geometry::NominalShape& nominal_;
+    const InspectionOptions& options_;
+    base::Diagnostics& report_;
+    InspectionReport out_;
+};
+
+}  // namespace
+
+base::Result<InspectionReport> inspectPoints(MeasuredPoints points, const geometry::NominalShape& nominal,
+                                             const InspectionOptions& options, base::Diagnostics& report) {
+    return Inspector(nominal, options, report).run(std::move(points));
+}
+
+}  // namespace cusp::inspect
