@@ -19,6 +19,7 @@ using Action = std::function<ExitCode()>;
 void addControllerCommand(CLI::App& app, Action& action);
 void addEvaluateCommand(CLI::App& app, Action& action);
 void addCapabilityCommand(CLI::App& app, Action& action);
+void addInspectCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);

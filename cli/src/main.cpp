@@ -29,6 +29,7 @@ ExitCode run(int argc, char** argv) {
     addTextureCommand(app, action);
     addSendCommand(app, action);
     addCapabilityCommand(app, action);
+    addInspectCommand(app, action);
     addMachineCommand(app, action);
     addSchemaCommand(app, action);
     try {

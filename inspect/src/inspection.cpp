@@ -45,6 +45,17 @@ Counted countedOf(const std::vector<PointDeviation>& deviations, double edge_tol
     return out;
 }
 
+/// Without the outliers, which say nothing of how well a point is measured.
+Counted within(const Counted& counted, double median_mm, double limit_mm) {
+    Counted out;
+    for (std::size_t k = 0; k < counted.values.size(); ++k) {
+        if (std::abs(counted.values[k] - median_mm) > limit_mm) continue;
+        out.values.push_back(counted.values[k]);
+        out.positions.push_back(counted.positions[k]);
+    }
+    return out;
+}
+
 Uncertainty uncertaintyOf(const Counted& counted, const InspectionOptions& options, std::size_t free_freedoms) {
     if (options.uncertainty_mm) return {*options.uncertainty_mm, true, "stated"};
     Uncertainty out = uncertaintyFromNeighbours(counted.positions, counted.values);
@@ -66,8 +77,9 @@ public:
         if (auto problem = checkUnit(points, nominal_)) return base::fail(*std::move(problem));
         const auto probe = decideProbe(points, nominal_, options_, report_);
         if (!probe) return base::fail(probe.error());
+        if (auto problem = checkPlane(points, nominal_, options_)) return base::fail(*std::move(problem));
         auto alignment = align(points.positions, nominal_, alignmentOptions(options_, probe->radius_mm));
-        if (!alignment) return base::fail(located(alignment.error(), points.source));
+        if (!alignment) return base::fail(explained(alignment.error(), points, probe->radius_mm));
         out_.points = std::move(points);
         out_.points_file = out_.points.source;
         out_.kind = probe->kind;
@@ -90,10 +102,14 @@ public:
     }
 
 private:
-    static base::Diagnostics located(const base::Diagnostics& problems, const std::string& file) {
+    /// The problems of a fit with the file they are of; why nothing overlaps is looked into.
+    base::Diagnostics explained(const base::Diagnostics& problems, const MeasuredPoints& points,
+                                double offset_mm) const {
         base::Diagnostics out;
         for (base::Diagnostic item : problems) {
-            item.where.file = file;
+            item.where.file = points.source;
+            if (item.code == "align.no-overlap")
+                item.message += "; " + explainPoorFit(points, nominal_, options_, offset_mm).cause;
             out.add(std::move(item));
         }
         return out;
@@ -115,7 +131,9 @@ private:
         evaluation.statistics.max_point = counted.points[evaluation.statistics.max_point];
         if (!options_.limits) return;
         evaluation.decision =
-            decide(counted.values, *options_.limits, uncertaintyOf(counted, options_, free_freedoms), options_.rule);
+            decide(counted.values, *options_.limits,
+                   uncertaintyOf(within(counted, evaluation.statistics.median_mm, limit_mm), options_, free_freedoms),
+                   options_.rule);
         evaluation.decision.worst_point = counted.points[evaluation.decision.worst_point];
     }
 
@@ -148,37 +166,55 @@ private:
         const Evaluation& judged = out_.judged();
         if (judged.statistics.count == 0)
             return withhold("inspect.beyond-edge", "no point lies on the nominal: all are beyond its edges");
-        if (2 * judged.beyond_edge > judged.deviations.size())
-            withhold("inspect.beyond-edge", fmt::format("{} of {} points lie beyond the edges of the nominal",
-                                                        judged.beyond_edge, judged.deviations.size()));
-        else if (judged.beyond_edge > 0)
+        const auto free = static_cast<std::size_t>(std::count(options_.locked.begin(), options_.locked.end(), false));
+        if (options_.fit != FitKind::None && judged.statistics.count < 3 * free)
+            withhold("inspect.few-points",
+                     fmt::format("{} points for a fit of {} freedoms: the fit follows the points; measure at least {}",
+                                 judged.statistics.count, free, 3 * free));
+        if (fitsPoorly(judged)) {
+            const Doubt why = explainPoorFit(out_.points, nominal_, options_, out_.probe_radius_mm);
+            return withhold(why.code,
+                            fmt::format("the points do not fit the nominal (rms {:.3g} mm, {} of {} beyond its "
+                                        "edges): {}",
+                                        judged.statistics.rms_mm, judged.beyond_edge, judged.deviations.size(),
+                                        why.cause));
+        }
+        if (judged.beyond_edge > 0)
             warn("inspect.beyond-edge",
-                 fmt::format("{} points lie more than {} mm beyond an edge of the nominal and do not "
-                             "count",
-                             judged.beyond_edge, options_.edge_tolerance_mm));
-        const double rms_mm = judged.statistics.rms_mm;
-        if (rms_mm > poorFitLimit(nominal_))
-            return withhold("inspect.poor-fit",
-                            fmt::format("the points do not fit the nominal (rms {:.3g} mm): {}", rms_mm,
-                                        explainPoorFit(out_.points, nominal_, out_.probe_radius_mm, rms_mm)));
+                 fmt::format("{} of {} points lie more than {} mm beyond an edge of the nominal and do "
+                             "not count",
+                             judged.beyond_edge, judged.deviations.size(), options_.edge_tolerance_mm));
+        doubtOutliers(judged);
+    }
+
+    /// By the spread of the middle half where outliers were to be left aside, by all points otherwise.
+    bool fitsPoorly(const Evaluation& judged) const {
+        constexpr std::size_t one_in = 10;
+        const double spread_mm =
+            options_.loss == Loss::Squared ? judged.statistics.rms_mm : 1.4826 * judged.statistics.mad_mm;
+        return spread_mm > poorFitLimit(nominal_) || one_in * judged.beyond_edge > judged.deviations.size();
+    }
+
+    void doubtOutliers(const Evaluation& judged) {
+        if (judged.outliers.empty()) return;
+        const double limit_mm = outlierDistance(judged.statistics, options_.outlier_rule);
         const double share = static_cast<double>(judged.outliers.size()) / static_cast<double>(judged.statistics.count);
         if (share > most_outliers && options_.loss == Loss::Squared)
-            withhold("inspect.many-outliers",
-                     fmt::format(
-                         "{:.0f} % of the points are outliers (farther than {:.3g} mm from the median): they pull the "
-                         "fit; look at them, or fit with --loss tukey",
-                         100.0 * share, outlierDistance(judged.statistics, options_.outlier_rule)));
-        else if (!judged.outliers.empty())
-            warn("inspect.outliers",
-                 fmt::format("{} of {} points are outliers (farther than {:.3g} mm from the median); they count",
-                             judged.outliers.size(), judged.statistics.count,
-                             outlierDistance(judged.statistics, options_.outlier_rule)));
+            return withhold(
+                "inspect.many-outliers",
+                fmt::format("{:.0f} % of the points are outliers (farther than {:.3g} mm from the median): they "
+                            "pull the fit; look at them, or fit with --loss tukey",
+                            100.0 * share, limit_mm));
+        warn("inspect.outliers",
+             fmt::format("{} of {} points are outliers (farther than {:.3g} mm from the median); they count",
+                         judged.outliers.size(), judged.statistics.count, limit_mm));
     }
 
     void withhold(std::string_view code, const std::string& message) {
         warn(code, message);
+        out_.doubts.push_back(message);
         for (Evaluation* evaluation : {&out_.datum, &out_.best_fit}) {
-            if (evaluation->decision.verdict == Verdict::NotAsked && !options_.limits) continue;
+            if (!options_.limits) continue;
             evaluation->decision.verdict = Verdict::Undecided;
             evaluation->decision.reason = "withheld: " + message;
         }

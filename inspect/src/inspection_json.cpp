@@ -152,6 +152,7 @@ base::Json toJson(const InspectionReport& report) {
     for (const SectionResult& section : report.sections) sections.push_back(toJson(section));
     out["sections"] = sections;
     out["decision"] = toJson(report.judged().decision);
+    out["doubts"] = report.doubts;
     return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cusp/inspect/pose_search.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -42,6 +43,44 @@ double rmsWith(const std::vector<Vector3>& points, const geometry::NominalShape&
     fit.loss_scale_mm = options.loss_scale_mm;
     const auto summary = align(points, nominal, fit);
     return summary ? summary->rms_mm : std::numeric_limits<double>::infinity();
+}
+
+struct Flatness {
+    bool is_flat = false;
+    Vector3 normal = Vector3::UnitZ();
+};
+
+/// Flat: the points scatter across their plane by less than a ten-thousandth of how they scatter along it.
+Flatness flatnessOf(const std::vector<Vector3>& points) {
+    Vector3 center = Vector3::Zero();
+    for (const Vector3& p : points) center += (p - points.front()) / static_cast<double>(points.size());
+    center += points.front();
+    geometry::Matrix3 moments = geometry::Matrix3::Zero();
+    for (const Vector3& p : points) moments += (p - center) * (p - center).transpose();
+    const Eigen::SelfAdjointEigenSolver<geometry::Matrix3> eigen(moments);
+    constexpr double flat = 1e-4;
+    return {eigen.eigenvalues()[0] <= flat * flat * eigen.eigenvalues()[2], eigen.eigenvectors().col(0)};
+}
+
+/// The share of points that a robust fit leaves aside, when it fits the others well; 0 when it does not.
+double outlierShare(const std::vector<Vector3>& points, const geometry::NominalShape& nominal,
+                    const InspectionOptions& options, double offset_mm) {
+    AlignmentOptions robust;
+    robust.fit = options.fit == FitKind::None ? FitKind::None : FitKind::LeastSquares;
+    robust.locked = options.locked;
+    robust.start = options.start;
+    robust.offset_mm = offset_mm;
+    robust.loss = Loss::Tukey;
+    const auto summary = align(points, nominal, robust);
+    if (!summary) return 0.0;
+    std::vector<double> sizes;
+    for (const PointDeviation& d : deviationsOf(points, summary->nominal_from_measured, nominal, offset_mm))
+        sizes.push_back(std::hypot(d.deviation_mm, d.beyond_edge_mm));
+    std::sort(sizes.begin(), sizes.end());
+    const double spread_mm = 1.4826 * sizes[sizes.size() / 2];
+    if (spread_mm > 0.2 * poorFitLimit(nominal)) return 0.0;
+    const auto first = std::upper_bound(sizes.begin(), sizes.end(), std::max(5.0 * spread_mm, 1e-4));
+    return static_cast<double>(sizes.end() - first) / static_cast<double>(sizes.size());
 }
 
 struct Ratio {
@@ -110,7 +149,7 @@ base::Result<ProbeDecision> decideProbe(const MeasuredPoints& points, const geom
     if (points.kind) {
         out.kind = *points.kind;
         out.source = "stated";
-        if (centres_fit_better != (out.kind == PointKind::Centre) && worse_mm > 5.0 * better_mm)
+        if (centres_fit_better != (out.kind == PointKind::Centre) && worse_mm > 2.5 * better_mm)
             report.warning(
                 "inspect.kind",
                 fmt::format("stated are {}, but the points fit as {} far better (rms {:.3g} mm instead of {:.3g} "
@@ -119,7 +158,8 @@ base::Result<ProbeDecision> decideProbe(const MeasuredPoints& points, const geom
                             centres_fit_better ? "probe centres" : "surface points", better_mm, worse_mm),
                 fileOf(points));
     } else {
-        if (!(worse_mm > 1.5 * better_mm))
+        constexpr double rounding_mm = 1e-6;
+        if (!(worse_mm > 1.5 * better_mm + rounding_mm))
             return base::fail(
                 "inspect.kind",
                 fmt::format("are the points probe centres or surface points? Both fit (rms {:.3g} mm and {:.3g} "
@@ -134,22 +174,51 @@ base::Result<ProbeDecision> decideProbe(const MeasuredPoints& points, const geom
     return out;
 }
 
+std::optional<base::Diagnostics> checkPlane(const MeasuredPoints& points, const geometry::NominalShape& nominal,
+                                            const InspectionOptions& options) {
+    const bool all_free = std::none_of(options.locked.begin(), options.locked.end(), [](bool lock) { return lock; });
+    if (options.fit == FitKind::None || !all_free || points.size() < 4) return std::nullopt;
+    const Flatness measured = flatnessOf(points.positions);
+    if (!measured.is_flat) return std::nullopt;
+    std::vector<Vector3> surface;
+    for (const geometry::Footpoint& foot : sampleNominal(nominal, 200)) surface.push_back(foot.position);
+    if (surface.size() < 4 || flatnessOf(surface).is_flat) return std::nullopt;
+    Eigen::Index across = 0;
+    (options.start.linear() * measured.normal).cwiseAbs().maxCoeff(&across);
+    constexpr std::array<std::string_view, 3> freedoms{"ty, tz, rx", "tx, tz, ry", "tx, ty, rz"};
+    base::Diagnostics out;
+    out.error("align.not-determined",
+              fmt::format(
+                  "the fit is not determined: all {} points lie in one plane, the nominal does not; nothing holds {}; "
+                  "measure in other planes too, or lock them",
+                  points.size(), freedoms.at(static_cast<std::size_t>(across))),
+              fileOf(points));
+    return out;
+}
+
 double poorFitLimit(const geometry::NominalShape& nominal) {
     constexpr double of_the_size = 0.002;
     return of_the_size * nominal.bounds().diagonal().norm();
 }
 
-std::string explainPoorFit(const MeasuredPoints& points, const geometry::NominalShape& nominal, double offset_mm,
-                           double rms_mm) {
+Doubt explainPoorFit(const MeasuredPoints& points, const geometry::NominalShape& nominal,
+                     const InspectionOptions& options, double offset_mm) {
+    const double share = outlierShare(sampled(points.positions), nominal, options, offset_mm);
+    if (share > 0.0)
+        return {"inspect.many-outliers",
+                fmt::format(
+                    "about {:.0f} % of the points are outliers, which pull the fit; look at them, or fit with --loss "
+                    "tukey",
+                    100.0 * share)};
     PoseSearchOptions search;
     search.offset_mm = offset_mm;
-    constexpr double clearly_better = 0.33;
-    if (searchPose(points.positions, nominal, search).rms_mm < clearly_better * rms_mm)
-        return "the start is too far off; --start scan finds one";
+    if (searchPose(points.positions, nominal, search).rms_mm < poorFitLimit(nominal))
+        return {"inspect.poor-fit", "the start is too far off; --start scan finds one"};
     search.mirrored = true;
-    if (searchPose(points.positions, nominal, search).rms_mm < clearly_better * rms_mm)
-        return "the mirror image of the points fits: a mirrored part, or an axis of the wrong sign";
-    return "a wrong nominal, or a part far out of shape";
+    if (searchPose(points.positions, nominal, search).rms_mm < poorFitLimit(nominal))
+        return {"inspect.poor-fit",
+                "the mirror image of the points fits: a mirrored part, or an axis of the wrong sign"};
+    return {"inspect.poor-fit", "a wrong nominal, a part far out of shape, or points that are not of this surface"};
 }
 
 }  // namespace cusp::inspect

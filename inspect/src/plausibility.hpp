@@ -25,11 +25,20 @@ struct ProbeDecision {
                                                       const geometry::NominalShape& nominal,
                                                       const InspectionOptions& options, base::Diagnostics& report);
 
-/// Why points fit badly, as one sentence: found by searching from no start, for them and for their mirror image.
-[[nodiscard]] std::string explainPoorFit(const MeasuredPoints& points, const geometry::NominalShape& nominal,
-                                         double offset_mm, double rms_mm);
+/// The error `align.not-determined` when all points lie in a plane that the nominal is not, with all freedoms free: a
+/// plane fits a curved surface in many ways.
+[[nodiscard]] std::optional<base::Diagnostics>
+checkPlane(const MeasuredPoints& points, const geometry::NominalShape& nominal, const InspectionOptions& options);
 
 /// Root mean square deviation above which points are not of this nominal, or not where they should be.
 [[nodiscard]] double poorFitLimit(const geometry::NominalShape& nominal);
+
+struct Doubt {
+    std::string code;
+    std::string cause;
+};
+/// Why points fit badly: found by a robust fit, and by searching from no start for them and for their mirror image.
+[[nodiscard]] Doubt explainPoorFit(const MeasuredPoints& points, const geometry::NominalShape& nominal,
+                                   const InspectionOptions& options, double offset_mm);
 
 }  // namespace cusp::inspect

@@ -114,7 +114,7 @@ private:
     Problem solve(ResidualField& field) {
         field.chooseParticipants(options_.edge_tolerance_mm);
         SolveOutcome outcome;
-        constexpr int most_rounds = 30;
+        constexpr int most_rounds = 20;
         for (int round = 0; round < most_rounds; ++round) {
             if (auto found = checkParticipants(field.normalEquations())) return found;
             const bool same_loss = updateLoss(field);
@@ -122,9 +122,10 @@ private:
             summary_.iterations += outcome.iterations;
             summary_.termination = outcome.termination;
             // A point on the very edge may leave and come back for ever; after a few rounds what has left stays out.
-            constexpr int free_rounds = 4;
+            constexpr int free_rounds = 3;
             const bool same_points = !field.chooseParticipants(options_.edge_tolerance_mm, round >= free_rounds);
-            if (same_points && same_loss) break;
+            const bool hopeless = outcome.termination == Termination::Stalled && round >= free_rounds;
+            if ((same_points && same_loss) || hopeless) break;
         }
         if (outcome.termination == Termination::MaxIterations) return notConverged();
         if (auto found = checkDetermination(field.normalEquations())) return found;

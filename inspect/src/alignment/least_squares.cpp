@@ -23,8 +23,11 @@ std::vector<Eigen::Index> freeIndices(const std::array<bool, 6>& locked) {
     return out;
 }
 
-/// Rounding leaves 1e-16 of the largest eigenvalue in directions that are not there at all.
+/// Below, steps are noise: rounding leaves 1e-16 of the largest eigenvalue in directions that are not there at all.
 constexpr double rank_tolerance = 1e-11;
+/// A freedom known ten thousand times worse than the best one is called undetermined: what determines it is not the shape
+/// but the last digit of the points.
+constexpr double undetermined_ratio = 1e-8;
 constexpr double weak_ratio = 1e-4;
 
 /// As many freedoms as there are columns: the rows of the null space that span it best.
@@ -116,7 +119,7 @@ Determination determinationOf(const Matrix6& H, const std::array<bool, 6>& locke
     Eigen::Index weak = 0;
     MatrixX inverse = MatrixX::Zero(values.size(), values.size());
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-        if (values[i] <= rank_tolerance * largest) {
+        if (values[i] <= undetermined_ratio * largest) {
             ++missing;
             continue;
         }

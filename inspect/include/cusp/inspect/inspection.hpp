@@ -32,7 +32,7 @@ struct InspectionOptions {
 /// Errors: `inspect.unit` (the sizes of points and nominal say that the unit is wrong), `inspect.kind`, `inspect.radius`
 /// (centres or surface points, and the probe's radius, do not fit together), `align.*`. Doubts become warnings in `report`
 /// and withhold the decision (undecided, with the reason): `inspect.poor-fit` (wrong nominal, mirrored part, start too far
-/// off), `inspect.many-outliers`, `inspect.beyond-edge`.
+/// off), `inspect.many-outliers`, `inspect.few-points`, `inspect.beyond-edge`.
 [[nodiscard]] base::Result<InspectionReport> inspectPoints(MeasuredPoints points, const geometry::NominalShape& nominal,
                                                            const InspectionOptions& options, base::Diagnostics& report);
 

@@ -45,6 +45,7 @@ struct InspectionReport {
     OutlierRule outlier_rule;
     double edge_tolerance_mm = 0.1;
     std::vector<SectionResult> sections;  ///< of the judged evaluation
+    std::vector<std::string> doubts;      ///< why no decision can be taken from this, each one sentence
 
     [[nodiscard]] const Evaluation& judged() const { return judged_in_datum ? datum : best_fit; }
 };
