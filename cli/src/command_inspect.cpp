@@ -7,12 +7,16 @@
 #include "inspect_flags.hpp"
 #include "inspect_output.hpp"
 #include "inspect_text.hpp"
+#include "qif_schema.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/geometry/cad/nominal_file.hpp>
-#include <cusp/inspect/pose_search.hpp>
+#include <cusp/inspect/qif_results.hpp>
 #include <cusp/inspect/reference_alignment.hpp>
+#include <cusp/inspect/scan/scan_registration.hpp>
 
+#include <filesystem>
+#include <fmt/format.h>
 #include <memory>
 #include <string>
 
@@ -20,11 +24,26 @@ namespace cusp::cli {
 
 namespace {
 
+base::Result<inspect::MeasuredPoints> readQifPoints(TextInput& input, const InspectFlags& flags,
+                                                    base::Diagnostics& remarks) {
+    auto results = inspect::readQif(input.stream(), input.name(), remarks);
+    if (!results) return base::fail(results.error());
+    base::Location where;
+    where.file = input.name();
+    if (results->points.positions.empty())
+        return base::fail("points.empty", "the QIF file holds no measured points", where);
+    const auto options = readerOptions(flags);
+    if (options.kind) results->points.kind = options.kind;
+    return std::move(results->points);
+}
+
 base::Result<inspect::MeasuredPoints> readPoints(const InspectFlags& flags) {
     auto input = TextInput::open(flags.points_file);
     if (!input) return base::fail(input.error());
     base::Diagnostics remarks;
-    auto points = inspect::readMeasuredPoints(input->stream(), input->name(), readerOptions(flags), remarks);
+    const bool is_qif = flags.format == "qif" || (flags.format.empty() && input->stream().peek() == '<');
+    auto points = is_qif ? readQifPoints(*input, flags, remarks)
+                         : inspect::readMeasuredPoints(input->stream(), input->name(), readerOptions(flags), remarks);
     tell(remarks);
     return points;
 }
@@ -37,15 +56,48 @@ base::Result<inspect::RigidTransform> startFromReferences(const std::string& fil
         .map([](const inspect::ReferenceAlignment& found) { return found.nominal_from_measured; });
 }
 
+/// cusp-scan lies beside cusp.
+std::string scanProgram() {
+    std::error_code ignored;
+    const std::filesystem::path command = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    return (command.parent_path() / "cusp-scan").string();
+}
+
+base::Result<inspect::RigidTransform> startFromScan(const InspectFlags& flags, const inspect::MeasuredPoints& points,
+                                                    const geometry::NominalShape& nominal) {
+    inspect::ScanOptions options;
+    options.program = scanProgram();
+    if (points.kind != inspect::PointKind::Surface)
+        options.offset_mm = flags.probe_radius_mm.value_or(points.probe_radius_mm.value_or(0.0));
+    const auto found = inspect::findScanStart(points.positions, nominal, options);
+    if (!found) return base::fail(found.error());
+    base::Diagnostics remark;
+    base::Location where;
+    where.file = points.source;
+    remark.note(
+        "scan.start",
+        fmt::format("start found by {} (coarse rms {:.3g} mm); of {} points looked at {} are outliers by distance to "
+                    "their neighbours",
+                    found->from_features ? "features" : "trying all orientations", found->rms_mm, found->sampled,
+                    found->outliers),
+        where);
+    tell(remark);
+    return found->nominal_from_measured;
+}
+
 /// Where the fit begins: as the file says, from reference points, or anywhere.
 base::Result<inspect::RigidTransform> startOf(const InspectFlags& flags, const inspect::MeasuredPoints& points,
                                               const geometry::NominalShape& nominal) {
     if (!flags.references.empty()) return startFromReferences(flags.references);
-    if (flags.start == "given") return inspect::RigidTransform::Identity();
-    inspect::PoseSearchOptions search;
-    const bool surface = points.kind == inspect::PointKind::Surface;
-    search.offset_mm = surface ? 0.0 : flags.probe_radius_mm.value_or(points.probe_radius_mm.value_or(0.0));
-    return inspect::searchPose(points.positions, nominal, search).nominal_from_measured;
+    if (flags.start == "scan") return startFromScan(flags, points, nominal);
+    return inspect::RigidTransform::Identity();
+}
+
+base::Result<void> writeResults(const InspectFlags& flags, const inspect::InspectionReport& report) {
+    if (flags.output.empty()) return {};
+    if (auto done = writeInspection(flags.output, report); !done) return done;
+    if (flags.qif_schema.empty()) return {};
+    return checkAgainstQifSchema((std::filesystem::path(flags.output) / "report.qif").string(), flags.qif_schema);
 }
 
 ExitCode exitCodeFor(const inspect::InspectionReport& report) {
@@ -71,8 +123,7 @@ ExitCode runInspect(const InspectFlags& flags) {
     if (!report) return failWith(report.error());
     report->nominal_file = flags.nominal;
     if (interrupted()) return ExitCode::Interrupted;
-    if (!flags.output.empty())
-        if (const auto done = writeInspection(flags.output, *report); !done) return failWith(done.error());
+    if (const auto done = writeResults(flags, *report); !done) return failWith(done.error());
     if (flags.json)
         sayJson(inspect::toJson(*report));
     else
@@ -84,10 +135,10 @@ void addPointFlags(CLI::App& inspect, InspectFlags& flags) {
     inspect
         .add_option(
             "POINTS", flags.points_file,
-            "Measured points: CSV, XYZ, ASC, DMIS output, PC-DMIS or Calypso text, PCD, PLY; - for standard input.")
+            "Measured points: CSV, XYZ, ASC, DMIS output, PC-DMIS or Calypso text, PCD, PLY, QIF; - for standard input.")
         ->required();
     inspect.add_option("--format", flags.format, "Format of the points, when it cannot be told from the text.")
-        ->check(CLI::IsMember({"table", "dmis", "pc-dmis", "calypso", "pcd", "ply"}));
+        ->check(CLI::IsMember({"table", "dmis", "pc-dmis", "calypso", "pcd", "ply", "qif"}));
     inspect.add_option("--columns", flags.columns, "Columns of a table, e.g. id,x,y,z,i,j,k,section,-.");
     inspect.add_option("--units", flags.units, "Unit of the points; goes before what the file says.")
         ->check(CLI::IsMember({"mm", "inch", "m"}));
@@ -156,8 +207,11 @@ void addInspectCommand(CLI::App& app, Action& action) {
     inspect->add_option("--nominal", flags->nominal, "Nominal surface.")->required();
     addFitFlags(*inspect, *flags);
     addDecisionFlags(*inspect, *flags);
-    inspect->add_option("-o,--output", flags->output,
-                        "Folder for report.json, report.html, points.csv, sections.csv and deviations.ply.");
+    CLI::Option* output = inspect->add_option(
+        "-o,--output", flags->output,
+        "Folder for report.json, report.html, report.qif, points.csv, sections.csv and deviations.ply.");
+    inspect->add_option("--qif-schema", flags->qif_schema, "Folder of the QIF 3.0 schema, to check report.qif against.")
+        ->needs(output);
     inspect->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
     inspect->callback([flags, &action] { action = [flags] { return runInspect(*flags); }; });
 }

@@ -36,6 +36,7 @@ struct InspectFlags {
     std::optional<double> uncertainty_mm;
     std::string rule = "probability";
     std::string judge;
+    std::string qif_schema;
     bool json = false;
 };
 

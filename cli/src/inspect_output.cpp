@@ -6,6 +6,7 @@
 #include "inspection_page.hpp"
 
 #include <cusp/base/atomic_file.hpp>
+#include <cusp/inspect/qif_writer.hpp>
 #include <cusp/inspect/report_files.hpp>
 
 #include <filesystem>
@@ -35,6 +36,7 @@ struct Output {
 };
 constexpr Output outputs[] = {{"report.json", writeJson},
                               {"report.html", writePage},
+                              {"report.qif", inspect::writeQif},
                               {"points.csv", inspect::writePointsCsv},
                               {"sections.csv", inspect::writeSectionsCsv},
                               {"deviations.ply", inspect::writeDeviationPly}};

@@ -10,7 +10,7 @@
 
 namespace cusp::cli {
 
-/// report.json, report.html, points.csv, sections.csv and deviations.ply; none of them appears before all are written.
+/// report.json, report.html, report.qif, points.csv, sections.csv and deviations.ply; none of them appears before all are written.
 /// Errors: `io.*`.
 [[nodiscard]] base::Result<void> writeInspection(const std::string& folder, const inspect::InspectionReport& report);
 

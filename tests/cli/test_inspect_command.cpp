@@ -50,8 +50,8 @@ TEST_F(InspectCommand, WritesItsFolder) {
     for (const auto& entry : std::filesystem::directory_iterator(path("report")))
         files.push_back(entry.path().filename());
     std::sort(files.begin(), files.end());
-    EXPECT_EQ(files,
-              (std::vector<std::string>{"deviations.ply", "points.csv", "report.html", "report.json", "sections.csv"}));
+    EXPECT_EQ(files, (std::vector<std::string>{"deviations.ply", "points.csv", "report.html", "report.json",
+                                               "report.qif", "sections.csv"}));
     std::istringstream rows(read("report/points.csv"));
     std::string header;
     std::getline(rows, header);

@@ -128,15 +128,19 @@ FoundPose searchPose(std::span<const Vector3> points, const geometry::NominalSha
         starts.push_back(poseBetween(from, to, rotation));
     std::vector<FoundPose> found;
     constexpr int first_iterations = 12;
-    for (const RigidTransform& start : starts)
-        found.push_back(refined(few, start, nominal, options.offset_mm, first_iterations));
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        found.push_back(refined(few, starts[i], nominal, options.offset_mm, first_iterations));
+        found.back().from_candidate = i < options.candidates.size();
+    }
     std::stable_sort(found.begin(), found.end(),
                      [](const FoundPose& a, const FoundPose& b) { return a.rms_mm < b.rms_mm; });
     constexpr int last_iterations = 60;
     for (std::size_t i = 0; i < std::min(finalists, found.size()); ++i) {
         const FoundPose end =
             refined(many, found[i].nominal_from_measured, nominal, options.offset_mm, last_iterations);
-        if (end.rms_mm < best.rms_mm) best = end;
+        if (end.rms_mm >= best.rms_mm) continue;
+        best = end;
+        best.from_candidate = found[i].from_candidate;
     }
     return best;
 }

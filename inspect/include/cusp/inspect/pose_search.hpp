@@ -13,7 +13,8 @@ namespace cusp::inspect {
 
 struct FoundPose {
     RigidTransform nominal_from_measured = RigidTransform::Identity();
-    double rms_mm = 0.0;  ///< of the distances to the nominal, edges included
+    double rms_mm = 0.0;          ///< of the distances to the nominal, edges included
+    bool from_candidate = false;  ///< reached from one of the caller's candidates
 };
 
 struct PoseSearchOptions {
