@@ -11,7 +11,6 @@
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/geometry/cad/nominal_file.hpp>
-#include <cusp/inspect/qif_results.hpp>
 #include <cusp/inspect/reference_alignment.hpp>
 #include <cusp/inspect/scan/scan_registration.hpp>
 
@@ -24,26 +23,11 @@ namespace cusp::cli {
 
 namespace {
 
-base::Result<inspect::MeasuredPoints> readQifPoints(TextInput& input, const InspectFlags& flags,
-                                                    base::Diagnostics& remarks) {
-    auto results = inspect::readQif(input.stream(), input.name(), remarks);
-    if (!results) return base::fail(results.error());
-    base::Location where;
-    where.file = input.name();
-    if (results->points.positions.empty())
-        return base::fail("points.empty", "the QIF file holds no measured points", where);
-    const auto options = readerOptions(flags);
-    if (options.kind) results->points.kind = options.kind;
-    return std::move(results->points);
-}
-
 base::Result<inspect::MeasuredPoints> readPoints(const InspectFlags& flags) {
     auto input = TextInput::open(flags.points_file);
     if (!input) return base::fail(input.error());
     base::Diagnostics remarks;
-    const bool is_qif = flags.format == "qif" || (flags.format.empty() && input->stream().peek() == '<');
-    auto points = is_qif ? readQifPoints(*input, flags, remarks)
-                         : inspect::readMeasuredPoints(input->stream(), input->name(), readerOptions(flags), remarks);
+    auto points = inspect::readMeasuredPoints(input->stream(), input->name(), readerOptions(flags), remarks);
     tell(remarks);
     return points;
 }
