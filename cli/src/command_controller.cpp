@@ -168,13 +168,13 @@ ExitCode serve(const Flags& flags, comm::VirtualControl& control) {
     if (!servers) return failWith(servers.error());
     for (const auto& server : *servers) say("listening on " + server->name() + "\n");
     ControlPanel panel(control, receiver);
-    const double begin_s = comm::transferClock_s();
+    const double begin_s = comm::transferClockSeconds();
     double lost_s = 0.0;  // by which the control is behind the clock for good
     while (!interrupted()) {
         for (const auto& server : *servers)
             if (const auto done = server->step(look_s / static_cast<double>(servers->size())); !done)
                 return failWith(done.error());
-        const double now_s = comm::transferClock_s();
+        const double now_s = comm::transferClockSeconds();
         const double due_s = now_s - begin_s - lost_s - control.status().time_s;
         lost_s += std::max(0.0, due_s - most_behind_s);
         if (due_s > 0.0) control.advance(std::min(due_s, most_behind_s));

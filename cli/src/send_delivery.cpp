@@ -162,7 +162,7 @@ ExitCode sendOverLink(const SendFlags& flags, const comm::LinkUrl& url, const co
         return failWith(link.error());
     }
     comm::Sender sender(program, options, (*link)->traits());
-    const double begin_s = comm::transferClock_s();
+    const double begin_s = comm::transferClockSeconds();
     {
         ShownProgress progress("sending");
         SlowLinkWarning warning;
@@ -170,7 +170,7 @@ ExitCode sendOverLink(const SendFlags& flags, const comm::LinkUrl& url, const co
             if (!options.refuse_slow_link) warning.look(at);
         });
     }
-    const double seconds = comm::transferClock_s() - begin_s;
+    const double seconds = comm::transferClockSeconds() - begin_s;
     const comm::TransferOutcome& outcome = sender.outcome();
     record->end(std::string(wordFor(outcome.end)), outcome.code.empty()
                                                        ? fmt::format("{} bytes confirmed", outcome.confirmed_bytes)
@@ -199,10 +199,10 @@ ExitCode sendPlain(const SendFlags& flags, const comm::LinkUrl& url, const comm:
     if (flags.line_end == "lf") options.line_end = comm::LineEnd::Lf;
     if (flags.line_end == "crlf") options.line_end = comm::LineEnd::CrLf;
     comm::PlainStreamer streamer(program.text, options);
-    const double begin_s = comm::transferClock_s();
+    const double begin_s = comm::transferClockSeconds();
     ShownProgress progress("sending");
     const auto ran = comm::runPlain(streamer, *stream, options, progress);
-    const double seconds = comm::transferClock_s() - begin_s;
+    const double seconds = comm::transferClockSeconds() - begin_s;
     record->end(ran ? "sent, unconfirmed" : "aborted", ran ? "" : base::toText(ran.error().front()));
     if (!ran) tell(ran.error());
     if (flags.json) {

@@ -152,8 +152,7 @@ TEST(AxisPlanner, SaysWhatARewindDoes) {
               "2: error: the limits force a rewind while cutting, at CL line 2: C axis from 150° to -170° (320°) "
               "[kinematics.rewind]");
     options.rewinds_are_handled = true;
-    const Plan handled =
-        plan(machine, pathThrough(machine, {{150.0, 30.0}, {190.0, 30.0}, {201.0, 30.0}}), options);
+    const Plan handled = plan(machine, pathThrough(machine, {{150.0, 30.0}, {190.0, 30.0}, {201.0, 30.0}}), options);
     EXPECT_TRUE(handled.report.empty()) << base::toText(handled.report);
     EXPECT_EQ(handled.summary.rewinds, 1U);
 }

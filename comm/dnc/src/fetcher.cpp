@@ -78,18 +78,18 @@ void runFetch(Fetcher& fetcher, Link& link, base::Progress& progress) {
     while (!fetcher.over()) {
         if (progress.stopRequested()) fetcher.linkLost("cancelled");
         while (link.ready()) {
-            const auto request = fetcher.poll(transferClock_s());
+            const auto request = fetcher.poll(transferClockSeconds());
             if (!request) break;
             if (auto sent = link.send(*request); !sent) fetcher.linkLost(words(sent.error()));
         }
         if (fetcher.over()) break;
-        const double now_s = transferClock_s();
+        const double now_s = transferClockSeconds();
         const double wait_s =
             link.ready() ? std::clamp(fetcher.nextWakeSeconds(now_s) - now_s, 0.0, most_wait_s) : most_wait_s;
         auto reply = link.receive(wait_s);
         if (!reply) fetcher.linkLost(words(reply.error()));
-        if (reply && *reply) fetcher.receive(**reply, transferClock_s());
-        fetcher.tick(transferClock_s());
+        if (reply && *reply) fetcher.receive(**reply, transferClockSeconds());
+        fetcher.tick(transferClockSeconds());
         progress.advance(fetcher.receivedBytes() - told);
         told = fetcher.receivedBytes();
     }

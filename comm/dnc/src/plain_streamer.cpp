@@ -56,7 +56,7 @@ base::Result<void> runPlain(PlainStreamer& streamer, ByteStream& stream, const P
                             base::Progress& progress) {
     const auto place = [&] { return fmt::format("after byte {} of {}", streamer.sentBytes(), streamer.totalBytes()); };
     progress.begin(streamer.totalBytes(), "sending");
-    double moved_s = transferClock_s();
+    double moved_s = transferClockSeconds();
     while (!streamer.allSent() || stream.queuedBytes() > 0) {
         if (progress.stopRequested()) return base::fail("dnc.cancelled", fmt::format("cancelled {}", place()));
         const auto came = stream.read(streamer.held() || stream.queuedBytes() >= piece_bytes ? 0.002 : 0.0);
@@ -68,7 +68,7 @@ base::Result<void> runPlain(PlainStreamer& streamer, ByteStream& stream, const P
         if (!written) return base::fail("io.link-lost", fmt::format("the line broke {}", place()));
         streamer.sent(*written);
         progress.advance(*written);
-        const double now_s = transferClock_s();
+        const double now_s = transferClockSeconds();
         if (*written > 0 || stream.queuedBytes() < queued) moved_s = now_s;
         if (now_s > moved_s + options.held_s)
             return base::fail("dnc.held",

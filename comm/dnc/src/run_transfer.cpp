@@ -25,7 +25,7 @@ std::string wordsOf(const base::Diagnostics& diagnostics) {
 
 }  // namespace
 
-double transferClock_s() {
+double transferClockSeconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
@@ -34,14 +34,14 @@ void runTransfer(Sender& sender, Link& link, base::Progress& progress,
     progress.begin(sender.totalBytes(), "sending");
     std::uint32_t told = 0;
     while (!sender.over()) {
-        if (progress.stopRequested()) sender.cancel(transferClock_s());
+        if (progress.stopRequested()) sender.cancel(transferClockSeconds());
         while (link.ready()) {
-            const auto request = sender.poll(transferClock_s());
+            const auto request = sender.poll(transferClockSeconds());
             if (!request) break;
             if (auto sent = link.send(*request); !sent) sender.linkLost(wordsOf(sent.error()));
         }
         if (sender.over()) break;
-        const double now_s = transferClock_s();
+        const double now_s = transferClockSeconds();
         // A link that is not ready wakes us when it is; the sender has nothing to say before.
         const double wait_s =
             link.ready() ? std::clamp(sender.nextWakeSeconds(now_s) - now_s, 0.0, most_wait_s) : most_wait_s;
@@ -49,16 +49,16 @@ void runTransfer(Sender& sender, Link& link, base::Progress& progress,
         if (!reply) {
             sender.linkLost(wordsOf(reply.error()));
         } else if (*reply) {
-            sender.receive(**reply, transferClock_s());
+            sender.receive(**reply, transferClockSeconds());
         }
         // A link that is never ready would keep it from seeing that nobody answers.
-        sender.tick(transferClock_s());
+        sender.tick(transferClockSeconds());
         tellProgress(sender, progress, told);
         if (watch) watch(sender);
     }
     progress.end();
 }
 
-Bytes ReceiverService::handle(ByteView request) { return receiver_.handle(request, transferClock_s()); }
+Bytes ReceiverService::handle(ByteView request) { return receiver_.handle(request, transferClockSeconds()); }
 
 }  // namespace cusp::comm

@@ -42,9 +42,9 @@ Sent sendOver(const std::string& url, const std::string& program, SenderOptions 
         return failed;
     }
     Sender sender({.name = "P.MPF", .text = program}, options, (*link)->traits());
-    const double begin_s = transferClock_s();
+    const double begin_s = transferClockSeconds();
     runTransfer(sender, **link, base::noProgress());
-    return {sender.outcome(), sender.statistics(), transferClock_s() - begin_s};
+    return {sender.outcome(), sender.statistics(), transferClockSeconds() - begin_s};
 }
 
 void expectDelivered(const Sent& sent, ServedControl& control, const std::string& program) {

@@ -29,6 +29,6 @@ private:
 };
 
 /// Seconds of the monotonic clock that both of the above use.
-[[nodiscard]] double transferClock_s();
+[[nodiscard]] double transferClockSeconds();
 
 }  // namespace cusp::comm
