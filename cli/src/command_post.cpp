@@ -49,6 +49,8 @@ struct Flags {
     std::optional<std::string> setup;
     std::optional<double> spindle_rpm;
     std::string form;
+    std::string feed_mode;
+    std::optional<double> tap_pitch_mm;
     std::optional<double> tool_length_mm;
     std::vector<double> wcs_origin_mm;
     std::optional<double> orientation_tolerance_deg;
@@ -81,6 +83,10 @@ base::Result<post::PostOptions> optionsOf(const Flags& flags) {
     if (flags.spindle_rpm) job.post.spindle_rpm = *flags.spindle_rpm;
     for (const auto& [word, form] : post::programFormWords())
         if (flags.form == word) job.post.form = form;
+    if (flags.feed_mode == "auto") job.post.feed_mode = post::PostOptions::FeedMode::Auto;
+    if (flags.feed_mode == "per-minute") job.post.feed_mode = post::PostOptions::FeedMode::PerMinute;
+    if (flags.feed_mode == "inverse-time") job.post.feed_mode = post::PostOptions::FeedMode::InverseTime;
+    if (flags.tap_pitch_mm) job.post.tap_pitch_mm = *flags.tap_pitch_mm;
     if (flags.tool_length_mm) job.post.tool_length_mm = *flags.tool_length_mm;
     if (flags.wcs_origin_mm.size() == 3)
         job.post.wcs_origin_mm = {flags.wcs_origin_mm[0], flags.wcs_origin_mm[1], flags.wcs_origin_mm[2]};
@@ -130,12 +136,20 @@ post::ProgramForm formOf(const post::PostOptions& options, const LoadedMachine& 
 
 post::ProgramHead headOf(const Flags& flags, const post::PostOptions& options, const LoadedMachine& machine,
                          const Setup& setup) {
-    return {options.program_name,
-            options.work_offset,
-            {"from " + fileNameOf(flags.cl_file) + " by cusp " + std::string(base::version()),
-             "machine: " + machine.file.machine.name,
-             formRemark(formOf(options, machine), machine) + "; linear travel " +
-                 (setup ? "kept in the setup: " + setup->name : std::string("not checked"))}};
+    const auto value = [&](std::string_view name) -> std::string {
+        if (name == "program") return options.program_name;
+        if (name == "cl_file") return fileNameOf(flags.cl_file);
+        if (name == "cusp") return "cusp " + std::string(base::version());
+        if (name == "machine") return machine.file.machine.name;
+        if (name == "form") return formRemark(formOf(options, machine), machine);
+        if (name == "travel")
+            return setup ? "linear travel kept in the setup: " + setup->name : "linear travel not checked";
+        return std::string(name);
+    };
+    post::ProgramHead head{options.program_name, options.work_offset, {}};
+    for (const std::string& line : machine.file.control.sequence.header)
+        head.comments.push_back(post::expandPlaceholders(line, value));
+    return head;
 }
 
 const std::string& workOffsetOf(const post::PostOptions& options, const LoadedMachine& machine) {
@@ -276,6 +290,12 @@ void addPostCommand(CLI::App& app, Action& action) {
             "traori-rotary (TRAORI, tip and rotary axes), traori-vectors (TRAORI, tip and A3 B3 C3) or machine (no "
             "TRAORI: positions of all axes); the machine file's when left out.")
         ->check(CLI::IsMember({"traori-rotary", "traori-vectors", "machine"}));
+    post->add_option("--feed-mode", flags->feed_mode,
+                     "auto (G93 where rotary axes turn without TRAORI), per-minute, or inverse-time (G93 everywhere).")
+        ->check(CLI::IsMember({"auto", "per-minute", "inverse-time"}));
+    post->add_option("--tap-pitch-mm", flags->tap_pitch_mm,
+                     "Pitch of tapped threads where the CL file gives no feed to take it from.")
+        ->check(CLI::PositiveNumber);
     post->add_option("--tool-length-mm", flags->tool_length_mm,
                      "Length of every tool from the gauge point: a program without TRAORI holds it.")
         ->check(CLI::NonNegativeNumber);

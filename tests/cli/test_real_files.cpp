@@ -64,6 +64,30 @@ TEST_F(RealFiles, EveryFormFollowsTheFile) {
         }
 }
 
+TEST_F(RealFiles, EveryMillingFileIsPosted) {
+    const auto posted = [&](const std::string& name, const std::string& machine, std::vector<std::string> more) {
+        std::vector<std::string> arguments{
+            "post", std::string(CUSP_SHARED_DATA) + "/cl/" + name, "-m", machine, "-o", path("P.MPF"), "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const auto outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << name << "\n" << outcome.errors;
+        return nlohmann::json::parse(outcome.output, nullptr, false);
+    };
+    EXPECT_EQ(posted("catia_demo2.apt", "three-axis", {"--units", "mm", "--tap-pitch-mm", "1.5"})["cutter_locations"], 2);
+    EXPECT_NE(read("P.MPF").find("MCALL CYCLE84("), std::string::npos);
+    EXPECT_EQ(posted("catia_demo4.apt", "three-axis", {})["cutter_locations"], 22);
+    EXPECT_EQ(posted("swcam_wall_holes.apt", "nutating-45", {})["cutter_locations"], 1864);
+    EXPECT_NE(read("P.MPF").find("CYCLE800("), std::string::npos);
+    EXPECT_NE(read("P.MPF").find(" G41 "), std::string::npos);
+    // Turning is refused by name.
+    for (const std::string name : {"catia_demo1.apt", "catia_demo3.apt", "catia_demo5.apt"}) {
+        const auto refused =
+            run({"post", std::string(CUSP_SHARED_DATA) + "/cl/" + name, "-m", "three-axis", "-o", path("T.MPF")});
+        EXPECT_EQ(refused.exit_code, 3) << name;
+        EXPECT_NE(refused.errors.find("this is a turning program"), std::string::npos) << refused.errors;
+    }
+}
+
 TEST_F(RealFiles, TheToolAxisStaysOnItsWay) {
     for (const std::string machine :
          {"haas-umc-bc", "trunnion-ac", "nutating-45", "fooke-endura-ca", "head-c200-a95"}) {

@@ -105,7 +105,16 @@ Section<ControlDefinition> makeControlSection() {
                "Difference of successive block numbers; 0 writes none.", {.min = 0.0, .max = 1000.0})
         .field("retract_axis", &ControlDefinition::retract_axis,
                "The linear axis that goes home alone, before all others.")
+        .field("block_number_max", &ControlDefinition::block_number_max,
+               "Block numbers begin again behind it; N takes eight digits.", {.min = 1000.0, .max = 99999999.0})
+        .field(
+            "fgref_mm", &ControlDefinition::fgref_mm,
+            "FGREF of the rotary axes: the radius at which they count in the feed of blocks that only turn. Absent: as "
+            "the control has it (57.296 mm as delivered).",
+            base::positive())
         .table("format", &ControlDefinition::format, formatSection())
+        .table("sequence", &ControlDefinition::sequence, sequenceSection())
+        .table("swivel", &ControlDefinition::swivel, swivelSection())
         .check(checkWorkOffset)
         .check(checkStartCodes);
     return section;
@@ -139,10 +148,28 @@ std::string linearNames(const machine::MachineDefinition& machine) {
     return names.empty() ? "none" : names;
 }
 
+void checkHome(const MachineFile& file, const std::optional<TomlNode>& control, Diagnostics& report) {
+    const auto sequence = control ? control->at("sequence") : std::nullopt;
+    if (!sequence) return;
+    const auto& machine = file.machine;
+    for (const std::string& block : file.control.sequence.home)
+        static_cast<void>(expandPlaceholders(block, [&](std::string_view name) {
+            const std::string axis(name);
+            if (axis != "retract_axis" && axis != "other_axes" && !machine.linear.contains(axis) &&
+                !machine.rotary.contains(axis))
+                report.error(
+                    "control.sequence",
+                    fmt::format("{{{}}} is no axis of this machine, nor {{retract_axis}} or {{other_axes}}", axis),
+                    sequence->whereKey("home"));
+            return std::string();
+        }));
+}
+
 /// What needs both parts of the file.
 void crossCheck(const MachineFile& file, const TomlNode& root, Diagnostics& report) {
-    if (file.machine.linear.contains(file.control.retract_axis)) return;
     const auto control = root.at("control");
+    checkHome(file, control, report);
+    if (file.machine.linear.contains(file.control.retract_axis)) return;
     report.error("control.unknown-axis",
                  fmt::format("\"{}\" is no linear axis of this machine; it has: {}", file.control.retract_axis,
                              linearNames(file.machine)),

@@ -86,6 +86,12 @@ double arcSweep(const ArcMotion& arc, const Vector3& start_mm) {
     return angle > least_sweep_rad ? angle : angle + full_turn;
 }
 
+double arcLength(const ArcMotion& arc, const Vector3& start_mm) {
+    const ArcPoints points(arc, start_mm);
+    const double radius = 0.5 * (points.start_radius + points.end_radius);
+    return std::hypot(points.sweep * radius, points.end_height - points.start_height);
+}
+
 std::vector<NcItem> arcSteps(const ArcMotion& arc, const Vector3& start_mm,
                              const Eigen::Affine3d& programmed_from_workpiece, const RotaryValues& rotary_rad,
                              const FeedRate& feed, double chord_tolerance_mm) {

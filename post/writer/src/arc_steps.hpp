@@ -22,4 +22,7 @@ namespace cusp::post {
 /// Angle the arc turns by, in (0, 2π].
 [[nodiscard]] double arcSweep(const toolpath::ArcMotion& arc, const geometry::Vector3& start_mm);
 
+/// Of the way along the arc, its rise included.
+[[nodiscard]] double arcLength(const toolpath::ArcMotion& arc, const geometry::Vector3& start_mm);
+
 }  // namespace cusp::post

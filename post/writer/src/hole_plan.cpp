@@ -27,12 +27,23 @@ double perRevolution(const FeedRate& feed, double speed_rpm) {
 
 }  // namespace
 
+bool alongZ(const geometry::Vector3& axis) {
+    return geometry::angleBetween(axis, geometry::Vector3::UnitZ()) <= along_z_rad;
+}
+
 tl::expected<HoleCycle, std::string> planHole(const CycleStart& cycle, const toolpath::CutterLocation& hole,
-                                              const Spindle& spindle, const std::optional<FeedRate>& feed) {
-    if (geometry::angleBetween(hole.axis, geometry::Vector3::UnitZ()) > along_z_rad)
-        return refuse("a hole that is not along Z needs a tilted plane (CYCLE800), which is not yet posted");
+                                              const Spindle& spindle, const std::optional<FeedRate>& feed,
+                                              const std::optional<double>& tap_pitch_mm) {
+    if (!alongZ(hole.axis))
+        return refuse(
+            "a hole that is not along Z needs a tilted plane (CYCLE800), and the machine file says it has none");
     if (!cycle.clearance_mm) return refuse("the cycle says no clearance above the hole");
-    const std::optional<FeedRate> rate = cycle.feed ? cycle.feed : feed;
+    const bool tap = cycle.kind == CycleStart::Kind::Tap;
+    std::optional<FeedRate> rate = cycle.feed ? cycle.feed : feed;
+    if (tap && !cycle.feed && tap_pitch_mm) rate = FeedRate{*tap_pitch_mm, FeedRate::Unit::MmPerRev};
+    if (!rate && tap)
+        return refuse(
+            "the tapping cycle has no feed to take the pitch of the thread from; give it with --tap-pitch-mm");
     if (!rate) return refuse("the cycle has no feed, and no FEDRAT stands before it");
 
     HoleCycle out;
@@ -51,7 +62,7 @@ tl::expected<HoleCycle, std::string> planHole(const CycleStart& cycle, const too
         out.peck_mm = std::min(out.peck_mm, cycle.first_peck_mm.value_or(out.peck_mm));
         out.first_peck_mm = out.peck_mm;
     }
-    if (cycle.kind == CycleStart::Kind::Tap) {
+    if (tap) {
         if (spindle.turn == SpindleCommand::Turn::Off || spindle.speed_rpm <= 0.0)
             return refuse("tapping with the spindle off: there is no SPINDL before it");
         const double right_hand = spindle.turn == SpindleCommand::Turn::Clockwise ? 1.0 : -1.0;

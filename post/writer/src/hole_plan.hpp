@@ -12,11 +12,14 @@
 
 namespace cusp::post {
 
-/// The cycle for one hole. `spindle` and `feed` are what holds at the hole. The error is the sentence to report: a hole
-/// that is not along Z, a cycle without clearance, feed or peck, a thread without spindle speed.
-[[nodiscard]] tl::expected<HoleCycle, std::string> planHole(const toolpath::CycleStart& cycle,
-                                                            const toolpath::CutterLocation& hole,
-                                                            const Spindle& spindle,
-                                                            const std::optional<toolpath::FeedRate>& feed);
+/// The cycle for one hole, whose location and axis are those of the frame it is programmed in. `spindle` and `feed` are what
+/// holds at the hole; `tap_pitch_mm` is the pitch of a thread whose cycle has no feed of its own. The error is the sentence
+/// to report: a hole that is not along Z, a cycle without clearance, feed or peck, a thread without spindle speed.
+[[nodiscard]] tl::expected<HoleCycle, std::string>
+planHole(const toolpath::CycleStart& cycle, const toolpath::CutterLocation& hole, const Spindle& spindle,
+         const std::optional<toolpath::FeedRate>& feed, const std::optional<double>& tap_pitch_mm = {});
+
+/// Whether a tool axis is that of a hole along Z, to within a CL file's seventh decimal.
+[[nodiscard]] bool alongZ(const geometry::Vector3& axis);
 
 }  // namespace cusp::post

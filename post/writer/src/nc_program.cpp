@@ -42,6 +42,7 @@ struct StepText {
     }
 
     std::string operator()(const Comment& item) const { return "comment " + item.text; }
+    std::string operator()(const Literal& item) const { return "block " + item.text; }
     std::string operator()(const ModalStart&) const { return "modal-start"; }
     std::string operator()(const GoHome&) const { return "go-home"; }
     std::string operator()(const ChangeTool& item) const {
@@ -72,6 +73,18 @@ struct StepText {
         if (!item.on) return "tip-programming off";
         return item.vectors ? "tip-programming on, vectors" : "tip-programming on";
     }
+    std::string operator()(const TiltedPlane& item) const {
+        const auto deg = [&](std::size_t i) { return base::degFromRad(item.angles_rad[i]); };
+        return fmt::format("tilted-plane X{:.4f} Y{:.4f} Z{:.4f} at", deg(0), deg(1), deg(2)) + point(item.origin_mm) +
+               rotary(item.rotary_rad);
+    }
+    std::string operator()(const PlaneOff&) const { return "plane-off"; }
+    std::string operator()(const RadiusCompensation& item) const {
+        using Side = toolpath::CutterCompensation::Side;
+        const char* side = item.side == Side::Off ? "off" : item.side == Side::Left ? "left" : "right";
+        return std::string("radius-compensation ") + side +
+               (item.offset_number ? fmt::format(" {}", *item.offset_number) : "");
+    }
     std::string operator()(const AxisProgramming& item) const {
         return fmt::format("axis-programming length {:.4f} origin", item.tool_length_mm) + point(item.wcs_origin_mm);
     }
@@ -81,9 +94,10 @@ struct StepText {
         return item.moves_per_min > 0.0 ? text + fmt::format(" as {:.6g}/min", item.moves_per_min) : text;
     }
     std::string operator()(const ArcMove& item) const {
-        return fmt::format("arc {}{} I{:.4f} J{:.4f}{}{}", item.clockwise ? "cw" : "ccw", point(item.end_mm),
-                           item.center_from_start_mm.x(), item.center_from_start_mm.y(), rotary(item.rotary_rad),
-                           feed(item.feed));
+        const std::string text = fmt::format("arc {}{} I{:.4f} J{:.4f}{}{}", item.clockwise ? "cw" : "ccw",
+                                             point(item.end_mm), item.center_from_start_mm.x(),
+                                             item.center_from_start_mm.y(), rotary(item.rotary_rad), feed(item.feed));
+        return item.moves_per_min > 0.0 ? text + fmt::format(" as {:.6g}/min", item.moves_per_min) : text;
     }
     std::string operator()(const HoleCycle& item) const {
         static constexpr std::array<const char*, 5> kinds{"drill", "deep", "break-chip", "bore", "tap"};
@@ -99,10 +113,19 @@ struct StepText {
     std::string operator()(const HoleCycleOff&) const { return "hole-cycle off"; }
     std::string operator()(const Pause& item) const { return fmt::format("pause {:.3f} s", item.seconds); }
     std::string operator()(const Stop& item) const { return item.optional ? "optional-stop" : "stop"; }
-    std::string operator()(const End&) const { return "end"; }
 };
 
 }  // namespace
+
+geometry::RigidTransform TiltedPlane::workpieceFromPlane() const {
+    using geometry::Vector3;
+    geometry::RigidTransform workpiece_from_plane = geometry::RigidTransform::Identity();
+    workpiece_from_plane.translate(origin_mm);
+    workpiece_from_plane.rotate(Eigen::AngleAxisd(angles_rad[0], Vector3::UnitX()));
+    workpiece_from_plane.rotate(Eigen::AngleAxisd(angles_rad[1], Vector3::UnitY()));
+    workpiece_from_plane.rotate(Eigen::AngleAxisd(angles_rad[2], Vector3::UnitZ()));
+    return workpiece_from_plane;
+}
 
 std::string toText(const NcStep& step, const std::vector<std::string>& rotary_names) {
     return std::visit(StepText{rotary_names}, step.item);

@@ -36,6 +36,13 @@ void check(const PostOptions& options, const Where& where, base::Diagnostics& re
                      "\"" + options.work_offset +
                          "\" is no settable frame of an 840D: G54 to G57, G505 to G599, or G500",
                      where("work_offset"));
+    for (const std::string& name : options.work_offsets)
+        if (!isSettableFrame(name))
+            report.error("post.work-offset",
+                         "\"" + name + "\" is no settable frame of an 840D: G54 to G57, G505 to G599, or G500",
+                         where("work_offsets"));
+    if (options.tap_pitch_mm && !(*options.tap_pitch_mm > 0.0 && *options.tap_pitch_mm <= 100.0))
+        report.error("post.tap-pitch", "the pitch of a thread must lie in 0 to 100 mm", where("tap_pitch_mm"));
     if (options.spindle_rpm && !(*options.spindle_rpm > 0.0 && std::isfinite(*options.spindle_rpm)))
         report.error("post.spindle-speed", "the spindle speed must be above 0 rev/min", where("spindle_rpm"));
     const auto length = [](double mm) { return mm >= 0.0 && mm <= 5000.0; };
@@ -63,6 +70,7 @@ void check(const PostOptions& options, const Where& where, base::Diagnostics& re
 }  // namespace
 
 const base::Section<PostOptions>& postSection() {
+    using FeedMode = PostOptions::FeedMode;
     static const auto section =
         base::Section<PostOptions>("Choices for one posting; every one is also a flag of `cusp post`.")
             .field("program_name", &PostOptions::program_name,
@@ -70,6 +78,19 @@ const base::Section<PostOptions>& postSection() {
             .field("spindle_rpm", &PostOptions::spindle_rpm,
                    "Spindle speed, clockwise, for CL files that give none before the first cut.", base::positive())
             .field("work_offset", &PostOptions::work_offset, "Work offset, e.g. G54. Empty: the machine file's.")
+            .field(
+                "work_offsets", &PostOptions::work_offsets,
+                "Work offsets of the programming frames (MSYS) in the order they come in. Empty, and behind the last: the "
+                "next settable frames.")
+            .choice<FeedMode>(
+                "feed_mode", &PostOptions::feed_mode,
+                {{"auto", FeedMode::Auto},
+                 {"per-minute", FeedMode::PerMinute},
+                 {"inverse-time", FeedMode::InverseTime}},
+                "auto: inverse time (G93) where rotary axes turn without TRAORI, else as the CL file says it; "
+                "per-minute: always so; inverse-time: every feed per minute becomes G93.")
+            .field("tap_pitch_mm", &PostOptions::tap_pitch_mm,
+                   "Pitch of tapped threads where the CL file gives no feed to take it from.", base::positive())
             .field(
                 "setup", &PostOptions::setup,
                 "Setup file, which says where the workpiece lies and how long the tools are. Empty: linear travel is "

@@ -59,8 +59,17 @@ void ToolMotion::begin(const ChangeTool* tool, const std::string& work_offset, s
     sink_.step({TipProgramming{true, form_ == ProgramForm::TraoriVectors, work_offset}, line});
 }
 
+void ToolMotion::beginPlane(const TiltedPlane& plane, std::uint32_t line) {
+    plane_from_workpiece_ = Eigen::Affine3d(plane.workpieceFromPlane().inverse());
+    sink_.step({plane, line});
+}
+
 void ToolMotion::end(std::uint32_t line) {
-    if (form_ != ProgramForm::Machine) sink_.step({TipProgramming{.on = false}, line});
+    if (inPlane())
+        sink_.step({PlaneOff{}, line});
+    else if (form_ != ProgramForm::Machine)
+        sink_.step({TipProgramming{.on = false}, line});
+    plane_from_workpiece_.reset();
 }
 
 void ToolMotion::setUpAxes(const ChangeTool* tool, const std::string& work_offset, std::uint32_t line) {
@@ -98,6 +107,7 @@ void ToolMotion::reportSingular(std::uint32_t line) {
 }
 
 std::optional<Eigen::Affine3d> ToolMotion::programmedFrame(const ToolPose& at) {
+    if (plane_from_workpiece_) return plane_from_workpiece_;
     if (form_ != ProgramForm::Machine) return Eigen::Affine3d::Identity();
     auto frame = machine_axes_.programmedFromWorkpiece(machine_axes_.printed(at.rotary_rad));
     if (!frame) reportSingular(at.line);
@@ -114,7 +124,8 @@ void ToolMotion::standAt(const ToolPose& pose) {
     at_ = pose;
     refiner_.interrupt();
     static_cast<void>(refiner_.advance({.tip_mm = pose.tip_mm, .rotary_rad = pose.rotary_rad, .line = pose.line}));
-    if (form_ != ProgramForm::Machine) return;
+    told_ = {{pose.tip_mm, pose.rotary_rad}, pose.tip_mm, pose.axis};
+    if (!inMachineAxes()) return;
     if (!lineariser_.startAt({pose.tip_mm, pose.rotary_rad})) reportSingular(pose.line);
     told_ = lineariser_.last();
 }
@@ -124,6 +135,8 @@ void ToolMotion::moveTo(const ToolPose& to, MotionKind kind, const FeedRate& fee
     feed_ = feed;
     line_ = to.line;
     at_ = to;
+    // A straight way of the tip, the tool axis at rest or on its great circle: nothing to divide.
+    if (inPlane()) return emitMove({{*plane_from_workpiece_ * to.tip_mm, to.rotary_rad}, to.tip_mm, to.axis});
     if (form_ == ProgramForm::TraoriVectors) return emitMove({{to.tip_mm, to.rotary_rad}, to.tip_mm, to.axis});
     const kinematics::PathPoint point{.tip_mm = to.tip_mm,
                                       .rotary_rad = to.rotary_rad,
@@ -173,16 +186,18 @@ void ToolMotion::machineMove(const kinematics::PathPoint& to, bool refined) {
 
 /// Blocks a minute: without TRAORI the control would hold the feed along the way of the axes, not along the tip's.
 double ToolMotion::inverseTime(const MachineStop& stop) const {
-    if (form_ != ProgramForm::Machine || kind_ != MotionKind::Feed || feed_.unit != FeedRate::Unit::MmPerS) return 0.0;
+    using FeedMode = PostOptions::FeedMode;
+    if (options_.feed_mode == FeedMode::PerMinute || kind_ != MotionKind::Feed || feed_.unit != FeedRate::Unit::MmPerS)
+        return 0.0;
     const RotaryValues& from = told_.at.rotary_rad;
     const RotaryValues& to = stop.at.rotary_rad;
-    if (from == to) return 0.0;
+    if (options_.feed_mode == FeedMode::Auto && (!inMachineAxes() || from == to)) return 0.0;
     const double turn_rad = std::max(std::abs(to[0] - from[0]), std::abs(to[1] - from[1]));
     const double way_mm = (stop.tip_mm - told_.tip_mm).norm();
     // A tip that hardly moves says nothing about the time.
     constexpr double hardly_mm = 0.1;
-    return base::mmPerMinFromMmPerS(feed_.value) /
-           (way_mm < hardly_mm ? std::max(way_mm, turn_rad * mm_per_rad) : way_mm);
+    const double counted_mm = way_mm < hardly_mm ? std::max(way_mm, turn_rad * mm_per_rad) : way_mm;
+    return counted_mm > 0.0 ? base::mmPerMinFromMmPerS(feed_.value) / counted_mm : 0.0;
 }
 
 void ToolMotion::emitMove(const MachineStop& stop) {
@@ -190,13 +205,25 @@ void ToolMotion::emitMove(const MachineStop& stop) {
     told_ = stop;
 }
 
-void ToolMotion::arcTo(const toolpath::ArcMotion& arc, const ToolPose& to, const FeedRate& feed) {
+double ToolMotion::arcTo(const toolpath::ArcMotion& arc, const ToolPose& to, const FeedRate& feed) {
     const Vector3 start_mm = at_.tip_mm;
-    const auto frame = programmedFrame(to);
-    if (frame)
-        for (NcItem& item : arcSteps(arc, start_mm, *frame, to.rotary_rad, feed, options_.chord_tolerance_mm))
-            sink_.step({std::move(item), to.line});
+    const double length_mm = arcLength(arc, start_mm);
+    const bool timed = options_.feed_mode == PostOptions::FeedMode::InverseTime && feed.unit == FeedRate::Unit::MmPerS;
+    kind_ = MotionKind::Feed;
+    feed_ = feed;
+    line_ = to.line;
+    if (const auto frame = programmedFrame(to))
+        for (NcItem& item : arcSteps(arc, start_mm, *frame, to.rotary_rad, feed, options_.chord_tolerance_mm)) {
+            if (auto* move = std::get_if<Move>(&item)) {
+                emitMove({{move->point_mm, move->rotary_rad}, frame->inverse() * move->point_mm, move->axis});
+                continue;
+            }
+            auto& circle = std::get<ArcMove>(item);
+            if (timed) circle.moves_per_min = base::mmPerMinFromMmPerS(feed.value) / length_mm;
+            sink_.step({std::move(item), line_});
+        }
     standAt(to);
+    return length_mm;
 }
 
 }  // namespace cusp::post

@@ -36,7 +36,10 @@ public:
     /// How points are programmed from here on: switches the transformation on, or says what positions of the axes hold for.
     /// `tool` may be null. Without TRAORI its length must be known, and on a rotary table where `work_offset` lies.
     void begin(const ChangeTool* tool, const std::string& work_offset, std::uint32_t line);
+    /// The same in a tilted plane, which is a form of its own.
+    void beginPlane(const TiltedPlane& plane, std::uint32_t line);
     void end(std::uint32_t line);
+    [[nodiscard]] bool inPlane() const { return plane_from_workpiece_.has_value(); }
 
     /// The first motion with a tool, from home.
     void approach(const ToolPose& to, toolpath::MotionKind kind, const toolpath::FeedRate& feed);
@@ -44,8 +47,8 @@ public:
     void moveTo(const ToolPose& to, toolpath::MotionKind kind, const toolpath::FeedRate& feed, bool mendable);
     /// A cut that limits force off its way: the tool leaves the part, unwinds, and comes back (`kinematics::Excursion`).
     void unwindTo(const ToolPose& to, const toolpath::FeedRate& feed);
-    /// `to` is the end of the arc.
-    void arcTo(const toolpath::ArcMotion& arc, const ToolPose& to, const toolpath::FeedRate& feed);
+    /// `to` is the end of the arc; answers its length.
+    double arcTo(const toolpath::ArcMotion& arc, const ToolPose& to, const toolpath::FeedRate& feed);
     /// The tool got there by a way of its own (a cycle).
     void standAt(const ToolPose& pose);
 
@@ -63,6 +66,7 @@ private:
     void emitMove(const MachineStop& stop);
     void machineMove(const kinematics::PathPoint& to, bool refined);
     [[nodiscard]] double inverseTime(const MachineStop& stop) const;
+    [[nodiscard]] bool inMachineAxes() const { return form_ == ProgramForm::Machine && !inPlane(); }
     void reportSingular(std::uint32_t line);
     void setUpAxes(const ChangeTool* tool, const std::string& work_offset, std::uint32_t line);
 
@@ -76,6 +80,7 @@ private:
     kinematics::ExcursionPlanner excursions_;
     MachineAxes machine_axes_;
     TipLineariser lineariser_;
+    std::optional<Eigen::Affine3d> plane_from_workpiece_;
     ToolPose at_;
     MachineStop told_;  ///< the last block end
     double largest_chord_error_mm_ = 0.0;

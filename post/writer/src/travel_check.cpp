@@ -55,7 +55,8 @@ struct TravelCheck::State {
           setup(setup_definition),
           cl_file(std::move(file)),
           next(sink),
-          travel(machine_model, travelOptions(cl_file)) {
+          travel(machine_model, travelOptions(cl_file)),
+          offset_name(work_offset) {
         if (const machine::WorkOffset* offset = setup.findOffset(work_offset))
             travel.setOrigin(geometry::toVector(offset->origin_mm));
         else
@@ -69,6 +70,7 @@ struct TravelCheck::State {
     std::string cl_file;
     NcSink& next;
     LinearTravel travel;
+    std::string offset_name;
     base::Diagnostics report;
     bool placed = false;
     bool tool_known = false;
@@ -78,12 +80,14 @@ struct TravelCheck::State {
     RotaryValues rotary_rad{};
     double retract_z_mm = 0.0;
     double bottom_z_mm = 0.0;
-    std::optional<MachineAxes> axes;  ///< points are positions of the axes
+    std::optional<MachineAxes> axes;                               ///< points are positions of the axes
+    std::optional<geometry::RigidTransform> workpiece_from_plane;  ///< points are in a tilted plane
 
     [[nodiscard]] bool follows() const { return placed && tool_known; }
 
     /// The tip for a programmed point.
     [[nodiscard]] Vector3 tipOf(const Vector3& point_mm, const RotaryValues& rotary) const {
+        if (workpiece_from_plane) return *workpiece_from_plane * point_mm;
         const auto frame = axes ? axes->programmedFromWorkpiece(rotary) : std::nullopt;
         return frame ? Vector3(frame->inverse() * point_mm) : point_mm;
     }
@@ -112,7 +116,24 @@ struct TravelCheck::State {
     }
     void see(const TipProgramming& item) {
         axes.reset();
+        workpiece_from_plane.reset();
         if (item.on) begin();
+    }
+    void see(const TiltedPlane& item) {
+        axes.reset();
+        see(PositionRotary{item.rotary_rad});
+        workpiece_from_plane = item.workpieceFromPlane();
+        begin();
+    }
+    void see(const PlaneOff&) { workpiece_from_plane.reset(); }
+    void see(const SelectWorkOffset& item) {
+        if (item.name == offset_name) return;
+        offset_name = item.name;
+        const machine::WorkOffset* offset = setup.findOffset(item.name);
+        placed = offset != nullptr;
+        if (placed) return travel.setOrigin(geometry::toVector(offset->origin_mm));
+        report.error("post.setup-offset",
+                     fmt::format("the setup does not place work offset {}; it places {}", item.name, namesOf(setup)));
     }
     void see(const AxisProgramming& item) {
         axes.emplace(machine, NumberFormat());
@@ -126,6 +147,10 @@ struct TravelCheck::State {
                          {cl_file, line, 0, {}});
         const auto tip = travel.tip();
         if (!tip) return;
+        if (workpiece_from_plane) {
+            at = workpiece_from_plane->inverse() * *tip;
+            return;
+        }
         const auto frame = axes ? axes->programmedFromWorkpiece(rotary_rad) : std::nullopt;
         at = frame ? Vector3(*frame * *tip) : *tip;
     }
@@ -174,13 +199,13 @@ struct TravelCheck::State {
     void see(const ModalStart&) {}
     void see(const Smoothing&) {}
     void see(const ScreenMessage&) {}
-    void see(const SelectWorkOffset&) {}
+    void see(const Literal&) {}
+    void see(const RadiusCompensation&) {}
     void see(const Spindle&) {}
     void see(const Coolant&) {}
     void see(const HoleCycleOff&) {}
     void see(const Pause&) {}
     void see(const Stop&) {}
-    void see(const End&) {}
 };
 
 TravelCheck::TravelCheck(const kinematics::Machine& machine, const machine::SetupDefinition& setup,

@@ -69,7 +69,7 @@ TEST(HoleCycles, WhatCannotBeACycleIsRefused) {
     CycleStart cycle = cycleOf(Kind::Drill);
     const toolpath::CutterLocation tilted{{0, 0, 0}, geometry::Vector3(0.6, 0.0, 0.8)};
     EXPECT_EQ(planHole(cycle, tilted, spindle_500, feed_200).error(),
-              "a hole that is not along Z needs a tilted plane (CYCLE800), which is not yet posted");
+              "a hole that is not along Z needs a tilted plane (CYCLE800), and the machine file says it has none");
     const toolpath::CutterLocation straight{{0, 0, 0}, geometry::Vector3::UnitZ()};
     EXPECT_EQ(planHole(cycle, straight, spindle_500, std::nullopt).error(),
               "the cycle has no feed, and no FEDRAT stands before it");

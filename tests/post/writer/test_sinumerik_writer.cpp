@@ -45,11 +45,11 @@ protected:
 };
 
 TEST_F(Writer, StartsWithDefaultsAndHome) {
-    EXPECT_EQ(write(ModalStart{}, GoHome{}), "; P\n"
-                                             "N10 G40 G17 G710 G94 G90 G60 G601 FNORM\n"
-                                             "N20 TRAFOOF\n"
-                                             "N30 SUPA G0 Z800 D0\n"
-                                             "N40 SUPA G0 X0 Y0 C0 A0 D0\n");
+    EXPECT_EQ(write(ModalStart{}, TipProgramming{.on = false}, GoHome{}), "; P\n"
+                                                                          "N10 G40 G17 G710 G94 G90 G60 G601 FNORM\n"
+                                                                          "N20 TRAFOOF\n"
+                                                                          "N30 SUPA G0 Z800 D0\n"
+                                                                          "N40 SUPA G0 X0 Y0 C0 A0 D0\n");
     EXPECT_EQ(blocks, 4U);
 }
 
@@ -144,8 +144,8 @@ TEST_F(Writer, FeedPerRevolution) {
 }
 
 TEST_F(Writer, ToolsByNameOrNumber) {
-    EXPECT_EQ(write(ChangeTool{5, "BALL \"6\""}), "; P\nN10 T=\"BALL _6_\"\nN20 M6\nN30 D1\n");
-    EXPECT_EQ(write(ChangeTool{5, ""}), "; P\nN10 T5\nN20 M6\nN30 D1\n");
+    EXPECT_EQ(write(ChangeTool{5, "BALL \"6\""}), "; P\nN10 T=\"BALL _6_\"\n");
+    EXPECT_EQ(write(ChangeTool{5, ""}), "; P\nN10 T5\n");
 }
 
 TEST_F(Writer, SmoothingPerSoftware) {
@@ -161,6 +161,61 @@ TEST_F(Writer, NamesOfSeveralLettersTakeAnEqualsSign) {
     file.machine.chain = {"workpiece", "base", "X", "Y", "Z", "C1", "A", "tool"};
     file.machine.rotary["C1"] = file.machine.rotary["C"];
     EXPECT_EQ(write(PositionRotary{{base::radFromDeg(-90), 0}}), "; P\nN10 G0 C1=-90 A0\n");
+}
+
+TEST_F(Writer, ATiltedPlaneIsCycle800) {
+    TiltedPlane plane;
+    plane.angles_rad = {base::radFromDeg(45.0), base::radFromDeg(35.2644), base::radFromDeg(150.0)};
+    plane.origin_mm = {1.0, 2.0, 3.0};
+    EXPECT_EQ(write(plane, feedMove(1, 2, 3, 10, 20, 600), PlaneOff{}),
+              "; P\n"
+              "N10 CYCLE800(0,\"\",0,57,1,2,3,45,35.2644,150,0,0,0,-1,0,0)\n"
+              "N20 G94 G1 X1 Y2 Z3 F600\n"
+              "N30 CYCLE800()\n");
+    file.control.swivel = {.data_set = "TABLE", .retract = 4, .status = 200000, .direction = 1, .display = 1};
+    EXPECT_EQ(write(plane), "; P\nN10 CYCLE800(4,\"TABLE\",200000,57,1,2,3,45,35.2644,150,0,0,0,1,0,1)\n");
+}
+
+TEST_F(Writer, RadiusCompensationStandsInTheNextStraightBlock) {
+    using Side = toolpath::CutterCompensation::Side;
+    EXPECT_EQ(write(feedMove(0, 0, 0, 0, 0, 600), RadiusCompensation{Side::Left, {}}, feedMove(1, 0, 0, 0, 0, 600),
+                    RadiusCompensation{Side::Off, {}}, feedMove(2, 0, 0, 0, 0, 600), RadiusCompensation{Side::Right, 2},
+                    feedMove(3, 0, 0, 0, 0, 600)),
+              "; P\n"
+              "N10 G94 G1 X0 Y0 Z0 C0 A0 F600\n"
+              "N20 G41 X1\n"
+              "N30 G40 X2\n"
+              "N40 G42 D2 X3 Y0 Z0\n");
+}
+
+TEST_F(Writer, SmallFeedsAndSpeedsAreNotRoundedAway) {
+    EXPECT_EQ(write(Spindle{toolpath::SpindleCommand::Turn::Clockwise, 0.398}, feedMove(0, 0, 0, 0, 0, 0.0125)),
+              "; P\nN10 S0.398 M3\nN20 G94 G1 X0 Y0 Z0 C0 A0 F0.0125\n");
+}
+
+TEST_F(Writer, FgrefAndNumbersThatBeginAgain) {
+    file.control.fgref_mm = 80.0;
+    file.control.block_number_max = 1000;
+    file.control.block_number_step = 400;
+    EXPECT_EQ(write(TipProgramming{true}), "; P\nN400 TRAORI\nN800 G54\nN400 ORIAXES\nN800 FGREF[C]=80 FGREF[A]=80\n");
+}
+
+TEST_F(Writer, HomeIsSpelledByTheMachineFile) {
+    file.control.sequence.home = {"G53 G0 {Z}", "G53 G0 {other_axes}", "G53 {C}"};
+    EXPECT_EQ(write(GoHome{}), "; P\nN10 G53 G0 Z800\nN20 G53 G0 X0 Y0 C0 A0\nN30 G53 C0\n");
+}
+
+TEST_F(Writer, EveryBlockIsListedWithItsClLine) {
+    std::string listed;
+    SinumerikWriter writer([](std::string_view) {}, file, {"P", "", {"a", "b"}},
+                           [&](const WrittenBlock& block) {
+                               listed += std::to_string(block.number) + "," + std::to_string(block.program_line) + "," +
+                                         std::to_string(block.cl_line) + ";";
+                           });
+    writer.step({Comment{"c"}, 6});
+    writer.step({Approach{{1, 2, 3}, {}, MotionKind::Rapid, {}}, 7});
+    writer.step({feedMove(1, 2, 4, 0, 0, 100), 9});
+    EXPECT_EQ(listed, "10,4,7;20,5,7;30,6,9;");
 }
 
 TEST_F(Writer, TextIsPrintableAndShort) {

@@ -56,7 +56,7 @@ TEST_F(Travel, FollowsTheMachineFromHomeToThePart) {
     // Pivot to tip is 400 mm. At home the tip is at Z −400 in the machine: 400 above the origin.
     EXPECT_EQ(check({GoHome{}, ChangeTool{1, "BALL"}, PositionRotary{}, TipProgramming{true},
                      Approach{{10.0, 20.0, 5.0}, {}, toolpath::MotionKind::Rapid, {}}, feedTo({30.0, 20.0, 0.0}),
-                     TipProgramming{false}, GoHome{}, End{}}),
+                     TipProgramming{false}, GoHome{}}),
               "");
     EXPECT_NEAR(range[0].first, 1010.0, 1e-9);
     EXPECT_NEAR(range[0].second, 1030.0, 1e-9);

@@ -7,8 +7,10 @@
 #include <cusp/base/toml_schema.hpp>
 #include <cusp/base/units.hpp>
 #include <cusp/machine/machine_definition.hpp>
+#include <cusp/post/control/sequence_definition.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,8 +50,14 @@ struct ControlDefinition {
     std::string start_codes = "G40 G17 G710 G94 G90 G60 G601 FNORM";
     std::string work_offset = "G54";
     std::int64_t block_number_step = 10;  ///< 0: no block numbers
-    std::string retract_axis = "Z";       ///< goes home alone, before all others
+    /// Numbers begin again behind it: N takes eight digits.
+    std::int64_t block_number_max = 99999990;
+    /// FGREF: the radius at which a rotary axis counts in the feed of blocks that only turn; absent: as the control has it.
+    std::optional<double> fgref_mm;
+    std::string retract_axis = "Z";  ///< goes home alone, before all others
     NumberFormat format;
+    SequenceDefinition sequence;
+    SwivelDefinition swivel;
 };
 
 /// The words of a file or a flag for each form: "traori-rotary", "traori-vectors", "machine".

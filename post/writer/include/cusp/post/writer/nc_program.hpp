@@ -7,6 +7,7 @@
 #include <cusp/kinematics/machine.hpp>
 #include <cusp/toolpath/cl_record.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,6 +18,11 @@ namespace cusp::post {
 
 /// Text for people, no effect on the machine.
 struct Comment {
+    std::string text;
+};
+
+/// A block as the machine file spells it.
+struct Literal {
     std::string text;
 };
 
@@ -71,6 +77,23 @@ struct TipProgramming {
     std::string work_offset = {};  ///< called again behind it; empty: the machine file's
 };
 
+/// The frame tilted and the tool set along its Z (CYCLE800 on an 840D): from here points are the tip in the plane's frame.
+/// The angles turn about X, then the new Y, then the new Z.
+struct TiltedPlane {
+    std::array<double, 3> angles_rad{};
+    geometry::Vector3 origin_mm = geometry::Vector3::Zero();  ///< of the plane, workpiece frame
+    RotaryValues rotary_rad{};  ///< where the axes are expected to go; the control chooses
+
+    [[nodiscard]] geometry::RigidTransform workpieceFromPlane() const;
+};
+struct PlaneOff {};
+
+/// The control offsets the path sideways by the radius of the tool, from the next straight move on.
+struct RadiusCompensation {
+    toolpath::CutterCompensation::Side side = toolpath::CutterCompensation::Side::Off;
+    std::optional<std::int64_t> offset_number;  ///< another D than the tool's first
+};
+
 /// No transformation: from here points are positions of the linear axes, shifted so that they are the tip while all rotary
 /// axes are at zero. They hold for this tool length and this place of the work offset.
 struct AxisProgramming {
@@ -80,7 +103,7 @@ struct AxisProgramming {
 
 /// To the first point with a tool: rapid in the plane at home height, then down, at feed when the CL file feeds there.
 ///
-/// Points of motions are as programmed: the tip in the workpiece frame, but for AxisProgramming.
+/// Points of motions are as programmed: the tip in the workpiece frame, but for TiltedPlane and AxisProgramming.
 struct Approach {
     geometry::Vector3 point_mm = geometry::Vector3::Zero();
     RotaryValues rotary_rad{};
@@ -107,9 +130,10 @@ struct ArcMove {
     bool clockwise = false;  ///< seen from +Z
     RotaryValues rotary_rad{};
     toolpath::FeedRate feed;
+    double moves_per_min = 0.0;  ///< as of a Move
 };
 
-/// From here every `HolePosition` is a hole along Z, until `HoleCycleOff`. Heights are absolute, in the workpiece frame.
+/// From here every `HolePosition` is a hole along Z, until `HoleCycleOff`. Heights are absolute.
 struct HoleCycle {
     toolpath::CycleStart::Kind kind = toolpath::CycleStart::Kind::Drill;
     double retract_z_mm = 0.0;
@@ -142,11 +166,10 @@ struct Stop {
     bool optional = false;
 };
 
-struct End {};
-
-using NcItem = std::variant<Comment, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset,
-                            Spindle, Coolant, PositionRotary, TipProgramming, AxisProgramming, Approach, Move, ArcMove,
-                            HoleCycle, HolePosition, HoleCycleOff, Pause, Stop, End>;
+using NcItem =
+    std::variant<Comment, Literal, ModalStart, GoHome, ChangeTool, Smoothing, ScreenMessage, SelectWorkOffset, Spindle,
+                 Coolant, PositionRotary, TipProgramming, TiltedPlane, PlaneOff, AxisProgramming, RadiusCompensation,
+                 Approach, Move, ArcMove, HoleCycle, HolePosition, HoleCycleOff, Pause, Stop>;
 
 /// One step of the program and the CL line it stands for (0: none).
 struct NcStep {

@@ -12,16 +12,23 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cusp::post {
 
 struct PostOptions {
+    /// Auto: inverse time (G93) where the rotary axes turn without TRAORI, else as the CL file says it.
+    enum class FeedMode : std::uint8_t { Auto, PerMinute, InverseTime };
+
     /// Program name, at most 24 letters, digits and underscores (840D); empty: from the output file's name.
     std::string program_name;
     /// Spindle speed for CL files that give none before the first cut.
     std::optional<double> spindle_rpm;
     /// Overrides the machine file's work offset ("G54", "G505").
     std::string work_offset;
+    /// Offsets of the programming frames in the order they come in; behind the last of these, and when empty behind
+    /// `work_offset`, the next settable frames.
+    std::vector<std::string> work_offsets;
     /// Setup file: where the workpiece lies and how long the tools are. Empty: linear travel is not checked.
     std::string setup;
     /// Overrides the machine file's.
@@ -35,6 +42,9 @@ struct PostOptions {
     std::optional<std::array<double, 3>> wcs_origin_mm;
     /// The same by the name of the offset; no key of the job file, the setup file has them.
     std::map<std::string, std::array<double, 3>> offset_origins_mm;
+    FeedMode feed_mode = FeedMode::Auto;
+    /// Pitch of tapped threads where the CL file gives neither pitch nor feed; a left-hand thread comes from the spindle.
+    std::optional<double> tap_pitch_mm;
     /// How far the tool axis may leave the great circle between two points of the CL file while cutting.
     double orientation_tolerance_rad = base::radFromDeg(0.05);
     /// Where rotary limits force a change of branch in a cut, it may be made this close to the pole, and is told; the tool

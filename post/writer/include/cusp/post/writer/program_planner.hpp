@@ -14,16 +14,48 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cusp::post {
+
+/// A settable frame the program runs in, and the programming frame of the CL file it stands for.
+struct UsedWorkOffset {
+    std::string name;
+    geometry::RigidTransform part_from_programming = geometry::RigidTransform::Identity();
+    std::uint32_t line = 0;  ///< where the CL file first has it; 0: it has no frames
+};
+
+/// What one operation does; the setup sheet is made of these. An operation ends where the next begins or the tool changes.
+struct OperationRecord {
+    std::string name;
+    std::uint32_t line = 0;
+    std::optional<std::int64_t> tool_number;
+    std::string tool_name;
+    std::optional<geometry::Cutter> cutter;
+    std::string work_offset;
+    bool tilted_plane = false;
+    double speed_rpm = 0.0;   ///< the highest
+    double least_feed = 0.0;  ///< mm/min; 0: no feed moves, or per revolution with the spindle off
+    double greatest_feed = 0.0;
+    std::size_t locations = 0;
+    std::size_t holes = 0;
+    geometry::Vector3 low_mm = geometry::Vector3::Zero();  ///< of the tip, in the work offset's frame
+    geometry::Vector3 high_mm = geometry::Vector3::Zero();
+    double feed_length_mm = 0.0;
+    double rapid_length_mm = 0.0;
+    double feed_time_s = 0.0;  ///< at the programmed feeds, drilling cycles not counted
+};
 
 /// What a posting did.
 struct PostSummary {
     std::size_t cutter_locations = 0;
     std::size_t operations = 0;
     std::size_t tool_changes = 0;
+    std::vector<UsedWorkOffset> work_offsets;
+    std::vector<OperationRecord> operation_records;
     std::size_t limit_violations = 0;
     /// Moves put between cutter locations so that tool axis and tip keep their way, and how far they still leave it: the
     /// tip by no more than a proven bound, and without TRAORI only.
