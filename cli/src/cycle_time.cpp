@@ -60,6 +60,7 @@ struct CycleTimeEstimate::State {
     dynamics::MotionPlanner planner;
     bool smooth = false;
     bool axis_programming = false;
+    std::optional<geometry::RigidTransform> workpiece_from_plane;  ///< points are in a tilted plane
     double rpm = 0.0;
     post::HoleCycle hole;
     std::size_t moves = 0;
@@ -98,9 +99,12 @@ struct CycleTimeEstimate::State {
     void rapid(std::optional<PathBlock> block) { add(std::move(block), std::numeric_limits<double>::infinity()); }
 
     [[nodiscard]] ToolPosition here() const { return {path.placeOf(axes).tip_mm, {axes[3], axes[4]}}; }
+    [[nodiscard]] Vector3 tipOf(const Vector3& point_mm) const {
+        return workpiece_from_plane ? Vector3(*workpiece_from_plane * point_mm) : point_mm;
+    }
     /// All axes at a programmed point.
     [[nodiscard]] std::optional<AxisVector> axesAt(const Vector3& point_mm, const RotaryValues& rotary_rad) const {
-        const auto at = path.at({point_mm, axis_programming ? RotaryValues{} : rotary_rad});
+        const auto at = path.at({tipOf(point_mm), axis_programming ? RotaryValues{} : rotary_rad});
         if (!at) return std::nullopt;
         AxisVector out = at->axes;
         out[3] = rotary_rad[0];
@@ -108,11 +112,12 @@ struct CycleTimeEstimate::State {
         return out;
     }
     [[nodiscard]] std::optional<PathBlock> moveTo(const Vector3& point_mm, const RotaryValues& rotary_rad) const {
-        if (!axis_programming) return path.line(here(), {point_mm, rotary_rad});
+        if (!axis_programming) return path.line(here(), {tipOf(point_mm), rotary_rad});
         const auto target = axesAt(point_mm, rotary_rad);
         return target ? std::optional(path.axesLine(axes, *target)) : std::nullopt;
     }
     [[nodiscard]] Vector3 programmedHere() const {
+        if (workpiece_from_plane) return workpiece_from_plane->inverse() * here().tip_mm;
         if (!axis_programming) return here().tip_mm;
         AxisVector upright = axes;
         upright[3] = upright[4] = 0.0;
@@ -140,9 +145,19 @@ struct CycleTimeEstimate::State {
     void see(const post::PositionRotary& item) {
         rapid(path.axesLine(axes, {axes[0], axes[1], axes[2], item.rotary_rad[0], item.rotary_rad[1]}));
     }
-    void see(const post::TipProgramming&) { axis_programming = false; }
+    void see(const post::TipProgramming&) {
+        axis_programming = false;
+        workpiece_from_plane.reset();
+    }
+    void see(const post::TiltedPlane& item) {
+        axis_programming = false;
+        see(post::PositionRotary{item.rotary_rad});
+        workpiece_from_plane = item.workpieceFromPlane();
+    }
+    void see(const post::PlaneOff&) { workpiece_from_plane.reset(); }
     void see(const post::AxisProgramming& item) {
         rest();
+        workpiece_from_plane.reset();
         axis_programming = true;
         origin = item.wcs_origin_mm;
         setTool(item.tool_length_mm);
@@ -211,10 +226,11 @@ struct CycleTimeEstimate::State {
         result.dwell_s += item.seconds;
     }
     void see(const post::Stop&) { rest(); }
-    void see(const post::End&) { rest(); }
 
     // No motion; each named, so that a new kind of step cannot go unseen.
     void see(const post::Comment&) {}
+    void see(const post::Literal&) {}
+    void see(const post::RadiusCompensation&) {}
     void see(const post::ModalStart&) {}
     void see(const post::ScreenMessage&) {}
     void see(const post::SelectWorkOffset&) {}

@@ -16,8 +16,8 @@ protected:
     nlohmann::json postAndVerify(const std::string& name, const std::string& machine,
                                  const std::vector<std::string>& shared_flags = {}, const std::string& form = {}) {
         const std::string cl = std::string(CUSP_SHARED_DATA) + "/cl/" + name;
-        std::vector<std::string> posting{"post",          cl,     "-m",    machine, "-o", path("P.MPF"),
-                                         "--spindle-rpm", "5000", "--json"};
+        std::vector<std::string> posting{
+            "post", cl, "-m", machine, "-o", path("P.MPF"), "--spindle-rpm", "5000", "--no-cycle-time", "--json"};
         std::vector<std::string> verifying{"verify", path("P.MPF"), "-m", machine, "--against", cl, "--json"};
         if (!form.empty()) posting.insert(posting.end(), {"--form", form});
         // With vectors the control chooses the positions of the rotary axes, and nothing can be unwound.
@@ -66,14 +66,21 @@ TEST_F(RealFiles, EveryFormFollowsTheFile) {
 
 TEST_F(RealFiles, EveryMillingFileIsPosted) {
     const auto posted = [&](const std::string& name, const std::string& machine, std::vector<std::string> more) {
-        std::vector<std::string> arguments{
-            "post", std::string(CUSP_SHARED_DATA) + "/cl/" + name, "-m", machine, "-o", path("P.MPF"), "--json"};
+        std::vector<std::string> arguments{"post",
+                                           std::string(CUSP_SHARED_DATA) + "/cl/" + name,
+                                           "-m",
+                                           machine,
+                                           "-o",
+                                           path("P.MPF"),
+                                           "--no-cycle-time",
+                                           "--json"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto outcome = run(arguments);
         EXPECT_EQ(outcome.exit_code, 0) << name << "\n" << outcome.errors;
         return nlohmann::json::parse(outcome.output, nullptr, false);
     };
-    EXPECT_EQ(posted("catia_demo2.apt", "three-axis", {"--units", "mm", "--tap-pitch-mm", "1.5"})["cutter_locations"], 2);
+    EXPECT_EQ(posted("catia_demo2.apt", "three-axis", {"--units", "mm", "--tap-pitch-mm", "1.5"})["cutter_locations"],
+              2);
     EXPECT_NE(read("P.MPF").find("MCALL CYCLE84("), std::string::npos);
     EXPECT_EQ(posted("catia_demo4.apt", "three-axis", {})["cutter_locations"], 22);
     EXPECT_EQ(posted("swcam_wall_holes.apt", "nutating-45", {})["cutter_locations"], 1864);
