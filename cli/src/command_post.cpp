@@ -10,6 +10,7 @@
 #include "post_text.hpp"
 #include "progress_bar.hpp"
 #include "setup_lookup.hpp"
+#include "setup_sheet.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/json_report.hpp>
@@ -25,6 +26,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cusp::cli {
@@ -62,6 +64,8 @@ struct Flags {
     std::optional<double> chord_tolerance_mm;
     bool cycle_time = false;
     bool no_cycle_time = false;
+    std::string map;
+    std::string setup_sheet;
     bool strict = false;
     bool json = false;
     bool print_config = false;
@@ -200,9 +204,41 @@ private:
     base::Diagnostics failure_;
 };
 
-ExitCode finish(const Flags& flags, const PostOutcome& outcome, ProgramFile& file) {
-    if (!outcome.report.hasErrors())
+/// What is written beside the program, when asked for.
+struct Companions {
+    std::optional<ProgramFile> map;
+    std::optional<ProgramFile> sheet;
+
+    static base::Result<Companions> open(const Flags& flags) {
+        Companions out;
+        for (auto [path, file] : {std::pair{&flags.map, &out.map}, std::pair{&flags.setup_sheet, &out.sheet}}) {
+            if (path->empty()) continue;
+            auto target = base::OutputTarget::open(*path);
+            if (!target) return base::fail(std::move(target).error());
+            file->emplace(*std::move(target));
+        }
+        if (out.map) out.map->write("block,program_line,cl_line\n");
+        return out;
+    }
+    base::Result<void> commit() {
+        for (auto* file : {&map, &sheet})
+            if (*file)
+                if (auto done = (*file)->commit(); !done) return done;
+        return {};
+    }
+};
+
+/// A line of the map: block number, line of the program, line of the CL file; empty where there is none.
+std::string mapLine(const post::WrittenBlock& block) {
+    const auto number = [](auto value) { return value == 0 ? std::string() : std::to_string(value); };
+    return number(block.number) + ',' + std::to_string(block.program_line) + ',' + number(block.cl_line) + '\n';
+}
+
+ExitCode finish(const Flags& flags, const PostOutcome& outcome, ProgramFile& file, Companions& companions) {
+    if (!outcome.report.hasErrors()) {
         if (const auto done = file.commit(); !done) return failWith(done.error());
+        if (const auto done = companions.commit(); !done) return failWith(done.error());
+    }
     tell(outcome.report);
     if (flags.json)
         sayJson(toJson(outcome));
@@ -229,12 +265,17 @@ ExitCode runPost(const Flags& flags) {
     auto target = base::OutputTarget::open(flags.output);
     if (!target) return failWith(target.error());
     ProgramFile file(*std::move(target));
+    auto companions = Companions::open(flags);
+    if (!companions) return failWith(companions.error());
 
     PostOutcome outcome{.cl_file = flags.cl_file, .output = flags.output, .machine = *machine};
     base::Diagnostics planning;
     machine->file.control.format = post::sufficientFormat(machine->file, formOf(*options, *machine), planning);
+    post::BlockListener listener;
+    if (companions->map)
+        listener = [&map = *companions->map](const post::WrittenBlock& block) { map.write(mapLine(block)); };
     post::SinumerikWriter writer([&file](std::string_view text) { file.write(text); }, machine->file,
-                                 headOf(flags, *options, *machine, *setup));
+                                 headOf(flags, *options, *machine, *setup), listener);
     std::optional<post::TravelCheck> travel;
     if (*setup) travel.emplace(machine->model, **setup, workOffsetOf(*options, *machine), flags.cl_file, writer);
     post::NcSink& checked = travel ? static_cast<post::NcSink&>(*travel) : writer;
@@ -261,7 +302,8 @@ ExitCode runPost(const Flags& flags) {
     }
     outcome.dialect = toolpath::dialectName(input->reader().dialect());
     outcome.mm_per_unit = input->reader().mmPerUnit();
-    return finish(flags, outcome, file);
+    if (companions->sheet) companions->sheet->write(setupSheet(outcome, options->program_name, *setup));
+    return finish(flags, outcome, file, *companions);
 }
 
 }  // namespace
@@ -284,6 +326,10 @@ void addPostCommand(CLI::App& app, Action& action) {
     post->add_option("--setup", flags->setup,
                      "Setup file: where the workpiece lies in the machine and how long the tools are. Linear travel is "
                      "checked with it.");
+    post->add_option("--map", flags->map,
+                     "CSV to write: which CL line each block stands for (block number, program line, CL line).");
+    post->add_option("--setup-sheet", flags->setup_sheet,
+                     "Markdown page to write for the machine: work offsets, tools, operations with extents and times.");
     post->add_option("--spindle-rpm", flags->spindle_rpm, "Spindle speed, clockwise, until the CL file gives one.");
     post->add_option(
             "--form", flags->form,

@@ -107,7 +107,8 @@ void Alignment::compare(const ExecutedMotion& motion) {
 void Alignment::withoutPose(const ExecutedMotion& motion) {
     abandonExcursion();
     if (isRapid(motion)) {
-        passPointsAlreadyMet();
+        // The first point of an operation is one the tool may go to again, from home.
+        while (!atOpening() && passPointAlreadyMet()) continue;
         if (held_ && done()) {
             extra(*held_);
             held_.reset();
@@ -147,14 +148,18 @@ bool Alignment::meetsNext(const ExecutedMotion& motion) {
 }
 
 /// A CL point at the place where the path already stands needs no block.
-void Alignment::passPointsAlreadyMet() {
+bool Alignment::passPointAlreadyMet() {
     // An arc that ends where it begins is a full circle, and has to be run.
-    while (!done() && at_ && expected_->points[next_].arc == none &&
-           difference(*at_, expected_->points[next_].pose).within(tolerance_)) {
-        ++report_.matched;
-        ++next_;
-        fraction_ = 0.0;
-    }
+    if (done() || !at_ || expected_->points[next_].arc != none ||
+        !difference(*at_, expected_->points[next_].pose).within(tolerance_))
+        return false;
+    ++report_.matched;
+    ++next_;
+    fraction_ = 0.0;
+    return true;
+}
+void Alignment::passPointsAlreadyMet() {
+    while (passPointAlreadyMet()) continue;
 }
 
 bool Alignment::onTheWay(const ExecutedMotion& motion) {
@@ -361,6 +366,9 @@ void Alignment::finish() {
         extra(*held_);
     else if (held_)
         displaced(*held_);
+    // An operation that ends where the one before it did, with the tool gone home already.
+    if (!done() && next_ > 0) at_ = expected_->points[next_ - 1].pose;
+    if (atOpening()) passPointsAlreadyMet();
     drop(expected_->points.size());
 }
 

@@ -66,6 +66,7 @@ private:
     void abandonExcursion();
     void checkOffThePart(const reader::ExecutedMotion& motion);
     void meet(const reader::ExecutedMotion& motion, std::size_t index);
+    bool passPointAlreadyMet();
     void passPointsAlreadyMet();
     void link();
     void extra(const Held& held);

@@ -83,6 +83,7 @@ void ProgramPlanner::State::beginMotion(const toolpath::CutterLocation& location
     if (planned.in_pole_cone && last_rotary) tellPoleCone(*last_rotary);
     countRotary(planned.rotary_rad);
     choosePlane(to, hole);
+    log.setPlace(work_offset, plane.has_value());
     if (operation_begins && cutting) beginOperationAtPart();
     operation_begins = false;
 }
@@ -199,7 +200,6 @@ void ProgramPlanner::State::changeTool() {
 
 void ProgramPlanner::State::reachPart(const ToolPose& pose, MotionKind kind, const toolpath::FeedRate& rate) {
     if (tool_called_again) changeTool();
-    log.setPlace(work_offset, plane.has_value());
     run(machine.control.sequence.approach);
     way.approach(pose, kind, rate);
     cutting = true;
@@ -216,7 +216,6 @@ void ProgramPlanner::State::leavePart() {
 
 void ProgramPlanner::State::beginOperationAtPart() {
     process.forget();
-    log.setPlace(work_offset, plane.has_value());
     run(machine.control.sequence.operation);
 }
 

@@ -109,6 +109,7 @@ private:
     bool started = false;
     bool warned_no_tool = false;
     bool warned_spindle_off = false;
+    bool warned_tolerance = false;
 
     std::optional<geometry::RigidTransform> work_plane;  ///< the CL file's, when it is tilted
     std::optional<geometry::RigidTransform> plane;       ///< the program's, chosen for the motion at hand

@@ -112,6 +112,21 @@ void ProgramPlanner::State::take(const toolpath::CycleEnd&) {
 
 void ProgramPlanner::State::take(const toolpath::CutterCompensation& command) { compensation = command; }
 
+/// CYCLE832 lets the control leave the programmed path by its tolerance; a finer one than the path was made with makes it
+/// follow the chords of the CAM system.
+void ProgramPlanner::State::take(const toolpath::PathTolerance& tolerance) {
+    const double smoothing_mm = machine.control.cycle832_tolerance_mm;
+    if (machine.control.cycle832 == ControlDefinition::Cycle832::None || tolerance.value_mm <= smoothing_mm ||
+        std::exchange(warned_tolerance, true))
+        return;
+    report.warning(
+        "post.smoothing-tolerance",
+        fmt::format("CYCLE832 has {:g} mm, the path was made with {} {:g} mm: with the finer tolerance the control "
+                    "follows the chords of the path; set cycle832_tolerance_mm",
+                    smoothing_mm, tolerance.outside ? "OUTTOL" : "INTOL", tolerance.value_mm),
+        here());
+}
+
 void ProgramPlanner::State::take(const toolpath::SplineMotion&) {
     report.error("post.nurbs", "a NURBS curve cannot be posted: export the operation with linear or circular moves",
                  here());

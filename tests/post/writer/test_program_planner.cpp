@@ -30,7 +30,9 @@ protected:
         const kinematics::Machine machine(file.machine);
         Collector collector(machine.rotaryNames());
         ProgramPlanner planner(file, machine, std::move(options), "part.cls", collector, report);
-        std::istringstream in(cl_text);
+        // A file that does not say where it ends is not whole.
+        const bool ends = cl_text.ends_with("END-OF-PATH\n") || cl_text.ends_with("FINI\n");
+        std::istringstream in(ends ? cl_text : cl_text + "FINI\n");
         toolpath::ClReader reader(in, "part.cls");
         for (toolpath::ClRecord record; reader.next(record);) planner.take(record);
         summary = planner.finish();
@@ -123,9 +125,9 @@ TEST_F(Planner, OneOperation) {
                     "comment work offset G54: the programming frame, origin X0.0000 Y0.0000 Z0.0000 mm in the part\n"
                     "change-tool \"BALL_6\"\n"
                     "block M6\n"
-                    "block D1\n"
                     "smoothing on\n"
                     "work-offset G54\n"
+                    "block D1\n"
                     "spindle cw 8000.000 rpm\n"
                     "coolant flood\n"
                     "position-rotary C90.0000 A0.0000\n"
@@ -230,8 +232,9 @@ TEST_F(Planner, EveryProgrammingFrameHasItsWorkOffset) {
 }
 
 TEST_F(Planner, ATurnedFrameIsToldOnce) {
-    plan(std::string(head) + "SPINDL/RPM,100,CLW\nFEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\nEND-OF-PATH\n" +
-         "TOOL PATH/OP2,TOOL,BALL_6\nMSYS/0.0,0.0,5.0,0.0,1.0,0.0,-1.0,0.0,0.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\n");
+    plan(
+        std::string(head) + "SPINDL/RPM,100,CLW\nFEDRAT/MMPM,100.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\nEND-OF-PATH\n" +
+        "TOOL PATH/OP2,TOOL,BALL_6\nMSYS/0.0,0.0,5.0,0.0,1.0,0.0,-1.0,0.0,0.0\nGOTO/0.0,0.0,0.0,0.0,0.0,1.0\nEND-OF-PATH\n");
     EXPECT_EQ(
         base::toText(report),
         "part.cls:9: warning: the programming frame of G55 is turned by 90° against that of G54: the workpiece has to "
@@ -294,7 +297,7 @@ TEST_F(Planner, AnOperationAtThePartBeginsWithItsModalState) {
     EXPECT_EQ(summary.tool_changes, 1U);
     file.control.sequence.operations_from_home = true;
     const std::string from_home = plan(cl);
-    EXPECT_NE(from_home.find("go-home\ncomment operation OP2\nmessage OP2\nchange-tool \"BALL_6\"\nblock M6\nblock D1\n"
+    EXPECT_NE(from_home.find("go-home\ncomment operation OP2\nmessage OP2\nchange-tool \"BALL_6\"\nblock M6\n"
                              "smoothing on\n"),
               std::string::npos)
         << from_home;
@@ -308,6 +311,15 @@ TEST_F(Planner, TheSequenceIsTheMachineFiles) {
                                                       "GOTO/0.0,0.0,0.0,0.0,0.0,1.0\nEND-OF-PATH\n");
     EXPECT_NE(text.find("change-tool \"BALL_6\"\nblock L6\nblock D1\n"), std::string::npos) << text;
     EXPECT_TRUE(text.ends_with("tip-programming off\ngo-home\nspindle off\nblock M2\n")) << text;
+}
+
+TEST_F(Planner, ASmoothingFinerThanThePathIsTold) {
+    const std::string cut = "UNITS/MM\nLOADTL/4\nSPINDL/500,RPM,CLW\nFEDRAT/600,MMPM\nGOTO/0,0,0\n";
+    plan("INTOL/0.005\nOUTTOL/0.01\n" + cut);
+    EXPECT_TRUE(report.empty()) << base::toText(report);
+    plan("INTOL/0.005\nOUTTOL/0.03\n" + cut);
+    ASSERT_EQ(report.warningCount(), 1U) << base::toText(report);
+    EXPECT_EQ(report.front().code, "post.smoothing-tolerance");
 }
 
 TEST_F(Planner, ArcsAndHoles) {

@@ -19,10 +19,10 @@ struct SequenceDefinition {
     std::vector<std::string> header = {"{program}", "from {cl_file} by {cusp}", "machine: {machine}",
                                        "{form}; {travel}"};
     std::vector<std::string> program_start = {"{modal}", "{transformation_off}", "{home}"};
-    std::vector<std::string> tool_change = {"{tool}", "M6", "D1"};
-    /// From home to the part, before the first motion.
-    std::vector<std::string> approach = {"{smoothing}", "{work_offset}", "{spindle}",
-                                         "{coolant}",   "{rotary}",      "{transformation}"};
+    std::vector<std::string> tool_change = {"{tool}", "M6"};
+    /// From home, where the tool length is off, to the part.
+    std::vector<std::string> approach = {"{smoothing}", "{work_offset}",   "D1", "{spindle}", "{coolant}",
+                                         "{rotary}",    "{transformation}"};
     /// Where an operation begins with the tool at the part already: everything modal again.
     std::vector<std::string> operation = {"{modal}",   "{smoothing}",     "D1", "{work_offset}", "{spindle}",
                                           "{coolant}", "{transformation}"};
