@@ -193,49 +193,50 @@ TEST_F(PostCommand, ANurbsCurveIsRefusedByName) {
     EXPECT_EQ(verified.exit_code, 3);
     EXPECT_NE(verified.errors.find("part.cls:6: error: a NURBS curve is not compared with programs"), std::string::npos)
         << verified.errors;
+}
 
-    TEST_F(PostCommand, TheMapNamesTheClLineOfEveryBlock) {
-        const std::string cl = write("part.cls", small_cl);
-        const auto outcome =
-            run({"post", cl, "-m", "fooke-endura-ca", "-o", path("P.MPF"), "--map", path("P.csv"), "--json"});
-        ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-        const std::string map = read("P.csv");
-        EXPECT_TRUE(map.starts_with("block,program_line,cl_line\n10,5,\n")) << map;
-        // One line for each block; the feed to CL line 9 is the one that has X10 for the first time.
-        EXPECT_EQ(static_cast<std::size_t>(std::count(map.begin(), map.end(), '\n')) - 1,
-                  nlohmann::json::parse(outcome.output)["blocks"].get<std::size_t>());
-        const std::string program = read("P.MPF");
-        const auto at = program.rfind('\n', program.find(" X10\n"));
-        const std::string block = program.substr(at + 2, program.find(' ', at) - at - 2);
-        const auto line = std::count(program.begin(), program.begin() + static_cast<std::ptrdiff_t>(at) + 1, '\n') + 1;
-        EXPECT_NE(map.find("\n" + block + "," + std::to_string(line) + ",9\n"), std::string::npos) << map << program;
-    }
+TEST_F(PostCommand, TheMapNamesTheClLineOfEveryBlock) {
+    const std::string cl = write("part.cls", small_cl);
+    const auto outcome =
+        run({"post", cl, "-m", "fooke-endura-ca", "-o", path("P.MPF"), "--map", path("P.csv"), "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    const std::string map = read("P.csv");
+    EXPECT_TRUE(map.starts_with("block,program_line,cl_line\n10,5,\n")) << map;
+    // One line for each block; the feed to CL line 9 is the one that has X10 for the first time.
+    EXPECT_EQ(static_cast<std::size_t>(std::count(map.begin(), map.end(), '\n')) - 1,
+              nlohmann::json::parse(outcome.output)["blocks"].get<std::size_t>());
+    const std::string program = read("P.MPF");
+    const auto at = program.rfind('\n', program.find(" X10\n"));
+    const std::string block = program.substr(at + 2, program.find(' ', at) - at - 2);
+    const auto line = std::count(program.begin(), program.begin() + static_cast<std::ptrdiff_t>(at) + 1, '\n') + 1;
+    EXPECT_NE(map.find("\n" + block + "," + std::to_string(line) + ",9\n"), std::string::npos) << map << program;
+}
 
-    TEST_F(PostCommand, TheSetupSheetSaysWhatToClamp) {
-        const std::string cl = write("part.cls", small_cl);
-        const std::string setup = write("setup.toml", "schema = 1\nname = \"plate\"\n[work_offset.G54]\n"
-                                                      "origin_mm = [1000.0, 0.0, -600.0]\n[[tool]]\nname = \"BALL_6\"\n"
-                                                      "length_mm = 150.0\n");
-        const auto outcome = run({"post", cl, "-m", "fooke-endura-ca", "-o", path("P.MPF"), "--setup", setup,
-                                  "--setup-sheet", path("P.md")});
-        ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-        const std::string sheet = read("P.md");
-        for (
-            const std::string line :
-            {"# Setup sheet: P\n", "| G54 | X 0.000, Y 0.000, Z 0.000 | X 1000.000, Y 0.000, Z -600.000 |\n",
-             "| BALL_6 | diameter 6, corner radius 3, cutting length 50 | 150.000 | 8000 rev/min | 1 |\n",
-             "| 1 | OP1 | 1 | BALL_6 | G54 | X 0.000, Y 0.000, Z 0.000 | X 10.000, Y 0.000, Z 50.000 | 1200 | 60 mm | 3 s |\n"})
-            EXPECT_NE(sheet.find(line), std::string::npos) << line << sheet;
-    }
+TEST_F(PostCommand, TheSetupSheetSaysWhatToClamp) {
+    const std::string cl = write("part.cls", small_cl);
+    const std::string setup = write("setup.toml", "schema = 1\nname = \"plate\"\n[work_offset.G54]\n"
+                                                  "origin_mm = [1000.0, 0.0, -600.0]\n[[tool]]\nname = \"BALL_6\"\n"
+                                                  "length_mm = 150.0\n");
+    const auto outcome = run(
+        {"post", cl, "-m", "fooke-endura-ca", "-o", path("P.MPF"), "--setup", setup, "--setup-sheet", path("P.md")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    const std::string sheet = read("P.md");
+    for (
+        const std::string line :
+        {"# Setup sheet: P\n", "| G54 | X 0.000, Y 0.000, Z 0.000 | X 1000.000, Y 0.000, Z -600.000 |\n",
+         "| BALL_6 | diameter 6, corner radius 3, cutting length 50 | 150.000 | 8000 rev/min | 1 |\n",
+         "| 1 | OP1 | 1 | BALL_6 | G54 | X 0.000, Y 0.000, Z 0.000 | X 10.000, Y 0.000, Z 50.000 | 1200 | 60 mm | 3 s |\n"})
+        EXPECT_NE(sheet.find(line), std::string::npos) << line << sheet;
+}
 
-    TEST_F(PostCommand, NothingIsWrittenBesideAProgramThatIsNot) {
-        const std::string cl = write("part.cls", "GOTO/1.0,2.0\n");
-        EXPECT_EQ(run({"post", cl, "-m", "fooke-endura-ca", "-o", path("P.MPF"), "--map", path("P.csv"),
-                       "--setup-sheet", path("P.md")})
-                      .exit_code,
-                  3);
-        EXPECT_EQ(left(), std::vector<std::string>{"part.cls"});
-    }
+TEST_F(PostCommand, NothingIsWrittenBesideAProgramThatIsNot) {
+    const std::string cl = write("part.cls", "GOTO/1.0,2.0\n");
+    EXPECT_EQ(run({"post", cl, "-m", "fooke-endura-ca", "-o", path("P.MPF"), "--map", path("P.csv"), "--setup-sheet",
+                   path("P.md")})
+                  .exit_code,
+              3);
+    EXPECT_EQ(left(), std::vector<std::string>{"part.cls"});
+}
 
 }  // namespace
 }  // namespace cusp::cli
