@@ -74,8 +74,9 @@ std::vector<double> orderKeys(const std::vector<Station>& stations, int axis) {
 std::vector<std::uint32_t> ordered(const std::vector<double>& keys) {
     std::vector<std::uint32_t> order(keys.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(),
-                     [&keys](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+    std::sort(order.begin(), order.end(), [&keys](std::uint32_t a, std::uint32_t b) {
+        return keys[a] < keys[b] || (!(keys[b] < keys[a]) && a < b);
+    });
     double agreement = 0.0;
     const double middle = 0.5 * static_cast<double>(keys.size() - 1);
     for (std::size_t i = 0; i < order.size(); ++i)

@@ -132,8 +132,7 @@ FoundPose searchPose(std::span<const Vector3> points, const geometry::NominalSha
         found.push_back(refined(few, starts[i], nominal, options.offset_mm, first_iterations));
         found.back().from_candidate = i < options.candidates.size();
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const FoundPose& a, const FoundPose& b) { return a.rms_mm < b.rms_mm; });
+    std::sort(found.begin(), found.end(), [](const FoundPose& a, const FoundPose& b) { return a.rms_mm < b.rms_mm; });
     constexpr int last_iterations = 60;
     for (std::size_t i = 0; i < std::min(finalists, found.size()); ++i) {
         const FoundPose end =
