@@ -55,6 +55,7 @@ template <class Value>
 std::vector<Value> sampled(const std::vector<Value>& values) {
     if (values.size() <= sample_points) return values;
     std::vector<Value> out;
+    out.reserve(sample_points);
     for (std::size_t i = 0; i < sample_points; ++i) out.push_back(values[i * values.size() / sample_points]);
     return out;
 }

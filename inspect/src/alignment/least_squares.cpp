@@ -34,6 +34,7 @@ constexpr double weak_ratio = 1e-4;
 std::vector<Freedom> spanningRows(const MatrixX& space, const std::vector<Eigen::Index>& free) {
     const Eigen::ColPivHouseholderQR<MatrixX> qr(space.transpose());
     std::vector<Freedom> out;
+    out.reserve(static_cast<std::size_t>(space.cols()));
     for (Eigen::Index i = 0; i < space.cols(); ++i)
         out.push_back(all_freedoms.at(
             static_cast<std::size_t>(free[static_cast<std::size_t>(qr.colsPermutation().indices()[i])])));
@@ -74,7 +75,7 @@ SolveOutcome solveLeastSquares(ResidualField& field, const std::array<bool, 6>& 
     int refused = 0;
     constexpr int most_refused = 12;
     // What the rounding of the distances can do to a sum of their squares.
-    const auto roundingOf = [tolerance_mm](const NormalEquations& at) {
+    const auto rounding_of = [tolerance_mm](const NormalEquations& at) {
         return 1e-13 * at.cost + 4.0 * std::sqrt(at.cost * at.weight_sum) * tolerance_mm;
     };
     const auto leave = [&](Termination termination) {
@@ -93,7 +94,7 @@ SolveOutcome solveLeastSquares(ResidualField& field, const std::array<bool, 6>& 
         ++out.iterations;
         field.moveTo(best + step);
         const NormalEquations next = field.normalEquations();
-        if (next.cost <= out.equations.cost + roundingOf(out.equations)) {
+        if (next.cost <= out.equations.cost + rounding_of(out.equations)) {
             best += step;
             moved = true;
             out.equations = next;

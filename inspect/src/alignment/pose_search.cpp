@@ -71,7 +71,8 @@ std::vector<geometry::Matrix3> uniformRotations(std::size_t n) {
 FoundPose refined(const std::vector<Vector3>& points, const RigidTransform& start,
                   const geometry::NominalShape& nominal, double offset_mm, int iterations) {
     std::vector<Vector3> moved;
-    for (const Vector3& p : points) moved.push_back(start * p);
+    moved.reserve(points.size());
+    for (const Vector3& p : points) moved.emplace_back(start * p);
     const Spread spread = spreadOf(moved);
     double square_sum = 0.0;
     for (const Vector3& p : moved) square_sum += (p - spread.center).squaredNorm();
@@ -92,10 +93,11 @@ std::vector<geometry::Footpoint> sampleNominal(const geometry::NominalShape& nom
     std::vector<geometry::Footpoint> out;
     for (int cells = 8; cells <= 128 && out.size() < wanted; cells *= 2) {
         const double step = longest / cells;
+        const Eigen::Array3i counts = (box.sizes().array() / step).floor().cast<int>() + 2;
         std::vector<Vector3> nodes;
-        for (double x = box.min().x(); x <= box.max().x() + step; x += step)
-            for (double y = box.min().y(); y <= box.max().y() + step; y += step)
-                for (double z = box.min().z(); z <= box.max().z() + step; z += step) nodes.emplace_back(x, y, z);
+        for (int x = 0; x < counts[0]; ++x)
+            for (int y = 0; y < counts[1]; ++y)
+                for (int z = 0; z < counts[2]; ++z) nodes.emplace_back(box.min() + step * Vector3(x, y, z));
         std::vector<geometry::Footpoint> feet(nodes.size());
         nominal.closest(nodes, feet, false);
         out.clear();
@@ -116,7 +118,7 @@ FoundPose searchPose(std::span<const Vector3> points, const geometry::NominalSha
     std::vector<Vector3> surface;
     for (const geometry::Footpoint& foot : sampleNominal(nominal, 300))
         surface.emplace_back(foot.position + options.offset_mm * foot.normal);
-    if (surface.empty()) surface.push_back(nominal.bounds().center());
+    if (surface.empty()) surface.emplace_back(nominal.bounds().center());
     const Spread from = spreadOf(many);
     const Spread to = spreadOf(surface);
     std::vector<RigidTransform> starts = options.candidates;
