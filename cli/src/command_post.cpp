@@ -84,14 +84,14 @@ base::Result<post::PostOptions> optionsOf(const Flags& flags) {
     if (flags.program_name) job.post.program_name = *flags.program_name;
     if (flags.work_offset) job.post.work_offset = *flags.work_offset;
     if (flags.setup) job.post.setup = *flags.setup;
-    if (flags.spindle_rpm) job.post.spindle_rpm = *flags.spindle_rpm;
+    if (flags.spindle_rpm) job.post.spindle_rpm = flags.spindle_rpm;
     for (const auto& [word, form] : post::programFormWords())
         if (flags.form == word) job.post.form = form;
     if (flags.feed_mode == "auto") job.post.feed_mode = post::PostOptions::FeedMode::Auto;
     if (flags.feed_mode == "per-minute") job.post.feed_mode = post::PostOptions::FeedMode::PerMinute;
     if (flags.feed_mode == "inverse-time") job.post.feed_mode = post::PostOptions::FeedMode::InverseTime;
-    if (flags.tap_pitch_mm) job.post.tap_pitch_mm = *flags.tap_pitch_mm;
-    if (flags.tool_length_mm) job.post.tool_length_mm = *flags.tool_length_mm;
+    if (flags.tap_pitch_mm) job.post.tap_pitch_mm = flags.tap_pitch_mm;
+    if (flags.tool_length_mm) job.post.tool_length_mm = flags.tool_length_mm;
     if (flags.wcs_origin_mm.size() == 3)
         job.post.wcs_origin_mm = {flags.wcs_origin_mm[0], flags.wcs_origin_mm[1], flags.wcs_origin_mm[2]};
     if (flags.orientation_tolerance_deg)

@@ -44,7 +44,6 @@ struct ProgramPlanner::State {
     std::deque<toolpath::ClRecord> waiting;
     bool at_home = true;  ///< of the records taken: the next location is reached from home, not cut to
 
-private:
     template <class Item>
     void emit(Item item) {
         sink.step({std::move(item), line});
@@ -59,7 +58,7 @@ private:
     void take(const toolpath::Dwell& dwell) { emit(Pause{dwell.seconds}); }
     void take(const toolpath::Remark& remark) { emit(Comment{remark.text}); }
     void take(const toolpath::HomeReturn&);
-    void take(const toolpath::WorkPlane& work_plane);
+    void take(const toolpath::WorkPlane& next);
     void take(const toolpath::CycleStart& start);
     void take(const toolpath::CycleEnd&);
     void take(const toolpath::CutterCompensation& command);
@@ -75,11 +74,11 @@ private:
     void take(const toolpath::LinearMotion& motion);
     void take(const toolpath::ArcMotion& arc);
     void take(const toolpath::HoleLocation& hole);
-    void beginMotion(const toolpath::CutterLocation& to, bool cut, bool hole);
+    void beginMotion(const toolpath::CutterLocation& location, bool cut, bool hole);
     [[nodiscard]] ToolPose poseAt(const toolpath::CutterLocation& location) const;
-    [[nodiscard]] std::optional<geometry::RigidTransform> planeFor(const ToolPose& to, bool hole);
+    [[nodiscard]] std::optional<geometry::RigidTransform> planeFor(const ToolPose& pose, bool hole);
     [[nodiscard]] bool holeAhead(const geometry::Vector3& axis) const;
-    void choosePlane(const ToolPose& to, bool hole);
+    void choosePlane(const ToolPose& pose, bool hole);
     void beginCompensation(bool straight);
     void endHoleCycle();
     void checkMotion(bool cut);
@@ -123,8 +122,6 @@ private:
     kinematics::PlannedAxes planned;
     std::optional<RotaryValues> last_rotary;
     geometry::Vector3 last_tip = geometry::Vector3::Zero();
-
-public:
     PostSummary summary;
 };
 

@@ -29,7 +29,7 @@ std::string WorkOffsets::take(const geometry::RigidTransform& part_from_programm
                same_frame;
     });
     if (known != used_.end()) return known->name;
-    const std::string name = used_.size() < names_.size() ? names_[used_.size()] : nextSettableFrame(used_.back().name);
+    std::string name = used_.size() < names_.size() ? names_[used_.size()] : nextSettableFrame(used_.back().name);
     // A name given for an earlier frame, or none left.
     const bool taken = std::any_of(used_.begin(), used_.end(), [&](const auto& offset) { return offset.name == name; });
     if (name.empty() || taken) return {};

@@ -75,7 +75,7 @@ TEST(MachineAxes, TheChordBoundIsABoundAndATightOne) {
             MachineAxes::Position to = from;
             for (std::size_t k = 0; k < 2; ++k) to.rotary_rad[k] += size * random.uniform(-1.0, 1.0);
             for (Eigen::Index k = 0; k < 3; ++k) to.point_mm[k] += 100.0 * size * random.uniform(-1.0, 1.0);
-            const auto tipAt = [&](double s) {
+            const auto tip_at = [&](double s) {
                 const kinematics::RotaryValues rotary{std::lerp(from.rotary_rad[0], to.rotary_rad[0], s),
                                                       std::lerp(from.rotary_rad[1], to.rotary_rad[1], s)};
                 const Vector3 point = from.point_mm + s * (to.point_mm - from.point_mm);
@@ -84,7 +84,7 @@ TEST(MachineAxes, TheChordBoundIsABoundAndATightOne) {
             double walked = 0.0;
             for (int step = 1; step < 400; ++step) {
                 const double s = step / 400.0;
-                walked = std::max(walked, (tipAt(s) - (tipAt(0.0) + s * (tipAt(1.0) - tipAt(0.0)))).norm());
+                walked = std::max(walked, (tip_at(s) - (tip_at(0.0) + s * (tip_at(1.0) - tip_at(0.0)))).norm());
             }
             const double bound = axes.chordError(from, to);
             ASSERT_GE(bound, walked * (1.0 - 1e-9))
