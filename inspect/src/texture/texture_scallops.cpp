@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace cusp::inspect {
 
@@ -34,7 +35,7 @@ double positionAt(std::span<const double> position_mm, double place) {
 /// Where the curve is highest within a portion.
 double ridgeOf(const TextureCurve& curve, const Portion& portion) {
     double best = portion.from;
-    double highest = -INFINITY;
+    double highest = -std::numeric_limits<double>::infinity();
     for (const TextureCurve::Piece& piece : curve.pieces()) {
         const double at = static_cast<double>(piece.interval) + piece.to;
         if (at >= portion.from && at <= portion.to && piece.z_to > highest) {
