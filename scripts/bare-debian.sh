@@ -39,7 +39,8 @@ bootstrapRoot() {
     debootstrap --variant=minbase --include=git,make,ca-certificates bookworm "$root" ${MIRROR:+"$MIRROR"} \
         >"$folder/bootstrap.log"
 }
-inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 "$@"; }
+inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
+    ${NODE_EXTRA_CA_CERTS:+NODE_EXTRA_CA_CERTS=/etc/host-certificates.crt} "$@"; }
 logged() { # <target>: make <target> inside, everything it says in a log
     inside make -C /root/cusp "$1" >"$folder/$1.log" 2>&1
 }
@@ -49,6 +50,8 @@ timed bootstrap bootstrapRoot
 mount -t proc proc "$root/proc"
 # Names are looked up as the host does it.
 cp -L /etc/resolv.conf "$root/etc/resolv.conf"
+# Where the host trusts a certificate authority of its own network, node in the root has to trust it as well.
+if [ -n "${NODE_EXTRA_CA_CERTS:-}" ]; then cp -L "$NODE_EXTRA_CA_CERTS" "$root/etc/host-certificates.crt"; fi
 git -c safe.directory='*' clone -q --no-hardlinks "$source_tree" "$root/root/cusp"
 git -C "$root/root/cusp" log -1 --format='commit     %h %s' | tee -a "$folder/times.txt"
 

@@ -14,7 +14,7 @@ namespace {
 
 TEST(RealFiles, StepAndIgesAreTheBenchmarkSurface) {
     const std::string folder = CUSP_SHARED_DATA "/cmm";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no real STEP and IGES files: " << folder << " is not there";
     const auto faces = readSurfaceFile(CUSP_SOURCE_DIR "/examples/benchmark/surface.toml");
     ASSERT_TRUE(faces.has_value());
     const ParametricSurface printed(*faces);

@@ -41,7 +41,7 @@ class BenchmarkSections : public ::testing::TestWithParam<FitKind> {};
 TEST_P(BenchmarkSections, KnownFrameAndDeviations) {
     const bool minimax = GetParam() == FitKind::Minimax;
     const auto path = folder / (minimax ? "eq14_sections_chebyshev.csv" : "eq14_sections_ls.csv");
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "the sections of the benchmark surface are not there: " << path;
     std::ifstream in(path);
     base::Diagnostics report;
     const auto points = readMeasuredPoints(in, path, {}, report);

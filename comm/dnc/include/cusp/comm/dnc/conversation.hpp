@@ -45,7 +45,7 @@ public:
                                double now_s);
     /// Nothing for a reply that is damaged, or answers what was sent before the last `enter`.
     [[nodiscard]] std::optional<Acknowledgement> accept(ByteView reply, double now_s);
-    /// From now on this session counts, and only replies to what is sent from now on.
+    /// From now on the given protocol session counts, and only replies to what is sent from now on.
     void enter(std::uint32_t session);
 
     /// What the request with this tag was about; nothing when that is not remembered.

@@ -125,7 +125,7 @@ struct Acknowledgement {
     std::uint32_t session = 0;
     std::uint32_t expected = 0;     ///< offset of the first byte not yet accepted
     std::uint32_t free_bytes = 0;   ///< taken from `expected` on
-    std::uint32_t running_crc = 0;  ///< CRC-32 of everything accepted in this session
+    std::uint32_t running_crc = 0;  ///< CRC-32 of everything accepted in `session`
     std::uint16_t tag = 0;
     bool drip = false;
     bool start_enabled = false;

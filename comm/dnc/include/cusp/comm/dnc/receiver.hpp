@@ -147,7 +147,7 @@ private:
     ReceiverState state_ = ReceiverState::Idle;
     std::uint32_t session_ = 0;
     std::uint32_t opened_from_session_ =
-        0;  ///< with `open_nonce_`: the OPEN that began this session, when it comes again
+        0;  ///< with `open_nonce_`: the OPEN that began `session_`, when it comes again
     std::uint32_t open_nonce_ = 0;
     std::uint32_t last_nonce_ = 0;
     Reason last_result_ = Reason::None;

@@ -175,7 +175,7 @@ private:
     std::uint32_t most_chunk_bytes_ = 0;
     unsigned good_chunks_ = 0;
     std::size_t since_reply_ = 0;
-    std::uint32_t sent_to_ = 0;  ///< the end of all that was ever sent in this session
+    std::uint32_t sent_to_ = 0;  ///< the end of all that was ever sent to `session`
     std::uint32_t free_bytes_ = 0;
     std::uint32_t checked_crc_ = 0;
     bool prefilled_ = false;
