@@ -21,7 +21,6 @@ namespace {
 using base::Json;
 using inspect::Evaluation;
 using inspect::InspectionReport;
-using inspect::PointDeviation;
 
 constexpr double per_tenth_micrometre = 1e4;
 constexpr double per_nanometre = 1e6;
@@ -120,6 +119,7 @@ Json worstOf(const InspectionReport& report) {
 
 std::vector<double> deviationsOf(const InspectionReport& report, const inspect::SectionResult& section) {
     std::vector<double> out;
+    out.reserve(section.points.size());
     for (const std::uint32_t point : section.points) out.push_back(deviationAt(report.judged(), point));
     return out;
 }

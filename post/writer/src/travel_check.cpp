@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -176,10 +177,11 @@ struct TravelCheck::State {
         const double cosine =
             std::clamp(1.0 - kinematics::TravelOptions().bound_mm / std::max(radius, 1e-9), -1.0, 1.0);
         const double count = std::max(1.0, std::ceil(sweep / (2.0 * std::acos(cosine))));
-        for (double chord = 1.0; chord < count; chord += 1.0) {
-            const double angle = from + (item.clockwise ? -1.0 : 1.0) * sweep * chord / count;
+        for (std::int64_t chord = 1; chord < static_cast<std::int64_t>(count); ++chord) {
+            const double share = static_cast<double>(chord) / count;
+            const double angle = from + (item.clockwise ? -1.0 : 1.0) * sweep * share;
             go({center.x() + radius * std::cos(angle), center.y() + radius * std::sin(angle),
-                std::lerp(start.z(), item.end_mm.z(), chord / count)},
+                std::lerp(start.z(), item.end_mm.z(), share)},
                item.rotary_rad);
         }
         go(item.end_mm, item.rotary_rad);
