@@ -62,26 +62,34 @@ class Frame {
   }
 }
 
+/** How high the normal distribution of all the values stands over its mean, in values per bin. */
+function peakOf(input: HistogramInput): number {
+  if (input.mean === undefined || !input.deviation || input.edges.length < 2) return 0;
+  const total = input.counts.reduce((sum, value) => sum + value, 0);
+  const bin = (input.edges[1] as number) - (input.edges[0] as number);
+  return (total * bin) / (input.deviation * Math.sqrt(2 * Math.PI));
+}
+
 function frameOf(input: HistogramInput): Frame {
   const ends = [input.edges[0] as number, input.edges[input.edges.length - 1] as number, ...(input.limits ?? [])];
   const low = Math.min(...ends);
   const high = Math.max(...ends);
   const air = (high - low || 1) * 0.05;
-  return new Frame(low - air, high + air, Math.max(...input.counts, 1) * 1.06);
+  // Room for the bell as well, but not so much that the bars become flat.
+  const highest = Math.max(...input.counts, 1);
+  return new Frame(low - air, high + air, Math.max(highest, Math.min(peakOf(input), 2 * highest)) * 1.06);
 }
 
 function bell(input: HistogramInput, frame: Frame): SVGElement | null {
   const { mean, deviation } = input;
-  if (mean === undefined || !deviation || input.edges.length < 2) return null;
-  const total = input.counts.reduce((sum, value) => sum + value, 0);
-  const bin = (input.edges[1] as number) - (input.edges[0] as number);
+  const peak = peakOf(input);
+  if (mean === undefined || !deviation || peak === 0) return null;
   const points: string[] = [];
   for (let i = 0; i <= 120; ++i) {
     const z = -4 + (8 * i) / 120;
     const x = frame.x(mean + z * deviation);
     if (x < box.left || x > box.right) continue;
-    const density = Math.exp(-0.5 * z * z) / (deviation * Math.sqrt(2 * Math.PI));
-    points.push(`${x.toFixed(1)},${Math.max(box.top, frame.y(total * bin * density)).toFixed(1)}`);
+    points.push(`${x.toFixed(1)},${Math.max(box.top, frame.y(peak * Math.exp(-0.5 * z * z))).toFixed(1)}`);
   }
   return svg("polyline", { class: "bell", points: points.join(" ") });
 }
