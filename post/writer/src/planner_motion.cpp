@@ -62,6 +62,7 @@ void ProgramPlanner::State::take(const toolpath::HoleLocation& hole) {
     log.motion(above.tip_mm, MotionKind::Rapid, cutting ? (above.tip_mm - last_tip).norm() : 0.0, {},
                process.spindle.speed_rpm);
     log.hole(to.tip_mm - cycle->depth_mm * to.axis, process.spindle.speed_rpm);
+    if (cutting) tellLowApproach(above);
     last_tip = above.tip_mm;
     if (!cutting) reachPart(above, MotionKind::Rapid, {});
     const auto frame = way.programmedFrame(to);
@@ -74,6 +75,20 @@ void ProgramPlanner::State::take(const toolpath::HoleLocation& hole) {
     const Vector3 place = *frame * above.tip_mm;
     emit(HolePosition{place.x(), place.y(), planned.rotary_rad});
     way.standAt(above);
+}
+
+/// A cycle called modally goes to the place of the hole at the height where the tool is, and only there up to its planes.
+void ProgramPlanner::State::tellLowApproach(const ToolPose& above) {
+    const double rise_mm = (above.tip_mm - last_tip).dot(above.axis);
+    const double across_mm = (above.tip_mm - last_tip - rise_mm * above.axis).norm();
+    constexpr double noticeable_mm = 0.001;
+    if (rise_mm <= noticeable_mm || across_mm <= noticeable_mm) return;
+    report.warning(
+        "post.low-approach",
+        fmt::format("the tool goes {:.4g} mm across to the hole at CL line {} while it is {:.4g} mm below the "
+                    "hole's retract plane: look what stands in its way, or lift it in the CL file before",
+                    across_mm, line, rise_mm),
+        here());
 }
 
 void ProgramPlanner::State::beginMotion(const toolpath::CutterLocation& location, bool cut, bool hole) {

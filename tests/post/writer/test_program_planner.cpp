@@ -132,6 +132,22 @@ TEST_F(Planner, ArcsAndHoles) {
               "move rapid X0.0000 Y0.0000 Z50.0000 C0.0000 A0.0000\n");
 }
 
+TEST_F(Planner, AHoleReachedFromBelowItsRetractPlaneIsTold) {
+    const std::string start = "UNITS/MM\nCUTTER/6,0,3,0,0,0,50\nLOADTL/4\nSPINDL/500,RPM,CLW\nRAPID\nGOTO/0,0,20\n"
+                              "CYCLE/DRILL,15,MMPM,300,2\nGOTO/5,5,1\n";
+    plan(start + "GOTO/9,8,11\nCYCLE/OFF\nFINI\n");
+    EXPECT_EQ(
+        base::toText(report),
+        "part.cls:9: warning: the tool goes 5 mm across to the hole at CL line 9 while it is 10 mm below the hole's "
+        "retract plane: look what stands in its way, or lift it in the CL file before [post.low-approach]\n");
+    report = base::Diagnostics();
+    // Down to a lower one, straight up, or from a lift in the CL file: nothing to tell.
+    plan(start + "GOTO/9,8,0\nCYCLE/OFF\nFINI\n");
+    plan(start + "GOTO/5,5,11\nCYCLE/OFF\nFINI\n");
+    plan(start + "CYCLE/OFF\nRAPID\nGOTO/5,5,13\nCYCLE/DRILL,15,MMPM,300,2\nGOTO/9,8,11\nCYCLE/OFF\nFINI\n");
+    EXPECT_TRUE(report.empty()) << base::toText(report);
+}
+
 TEST_F(Planner, AxisBeyondItsLimitNamesLineValueAndLimit) {
     plan(std::string(head) + "SPINDL/RPM,100,CLW\nFEDRAT/MMPM,100.0\n"
                              "GOTO/0.0,0.0,0.0,0.0,0.0,1.0\n"
