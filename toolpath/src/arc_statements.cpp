@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace cusp::toolpath::detail {
@@ -218,6 +219,27 @@ std::optional<Vector3> endOfDrivenArc(ReaderContext& context, const DrivenArc& a
     return std::nullopt;
 }
 
+/// What CIRCLE and MOVARC begin with: centre and axis, the first six numbers. Nothing where no arc may begin; it is reported.
+/// `name` outlives the statement, as `word` does not.
+std::optional<OpenArc> beginArc(ReaderContext& context, std::string_view word, const char* name,
+                                std::span<const double> numbers) {
+    const std::optional<Vector3> axis = unitAxis(context, word, &numbers[3]);
+    if (!axis) {
+        return std::nullopt;
+    }
+    if (context.cycle_on) {
+        context.error("cl.arc", fmt::format("{} while a cycle is on is not understood", word));
+        return std::nullopt;
+    }
+    abandonArc(context);
+    OpenArc arc;
+    arc.word = name;
+    arc.line = context.line;
+    arc.center_mm = Vector3(numbers[0], numbers[1], numbers[2]) * context.mm_per_unit;
+    arc.normal = *axis;
+    return arc;
+}
+
 }  // namespace
 
 void handleCircle(ReaderContext& context, std::string_view word, std::string_view body) {
@@ -234,22 +256,13 @@ void handleCircle(ReaderContext& context, std::string_view word, std::string_vie
     if (!takeNumbers(context, word, fields, 0, fields.size(), v.data())) {
         return;
     }
-    const std::optional<Vector3> axis = unitAxis(context, word, &v[3]);
-    if (!axis) {
+    std::optional<OpenArc> arc = beginArc(context, word, "CIRCLE", v);
+    if (!arc) {
         return;
     }
-    if (context.cycle_on) {
-        context.error("cl.arc", fmt::format("{} while a cycle is on is not understood", word));
-        return;
-    }
-    abandonArc(context);
-    OpenArc arc;
-    arc.word = "CIRCLE";
-    arc.line = context.line;
-    arc.center_mm = Vector3(v[0], v[1], v[2]) * context.mm_per_unit;
-    arc.normal = context.dialect->circle_axis_sign * *axis;
+    arc->normal *= context.dialect->circle_axis_sign;
     if (fields.size() > least) {
-        arc.radius_mm = v[6] * context.mm_per_unit;
+        arc->radius_mm = v[6] * context.mm_per_unit;
     }
     context.arc = arc;
 }
@@ -279,23 +292,13 @@ void handleMovarc(ReaderContext& context, std::string_view word, std::string_vie
                       fmt::format("{}/{} is not understood; centre, axis, radius and ANGLE are", word, quoted(body)));
         return;
     }
-    const std::optional<Vector3> axis = unitAxis(context, word, &v[3]);
-    if (!axis) {
+    std::optional<OpenArc> arc = beginArc(context, word, "MOVARC", v);
+    if (!arc) {
         return;
     }
-    if (context.cycle_on) {
-        context.error("cl.arc", fmt::format("{} while a cycle is on is not understood", word));
-        return;
-    }
-    abandonArc(context);
-    OpenArc arc;
-    arc.word = "MOVARC";
-    arc.line = context.line;
-    arc.center_mm = Vector3(v[0], v[1], v[2]) * context.mm_per_unit;
-    arc.normal = *axis;
-    arc.radius_mm = v[6] * context.mm_per_unit;
+    arc->radius_mm = v[6] * context.mm_per_unit;
     if (angle_deg) {
-        arc.sweep_rad = base::radFromDeg(*angle_deg);
+        arc->sweep_rad = base::radFromDeg(*angle_deg);
     }
     context.arc = arc;
 }
