@@ -22,8 +22,11 @@ root="$folder/root"
 [ ! -e "$root" ] || { echo "$root is there already; nothing of it is touched" >&2; exit 1; }
 
 cleanUp() {
-    # Only what this script mounted: removing a root with /proc mounted in it would be a poor idea.
-    if mountpoint -q "$root/proc"; then umount "$root/proc" || { echo "$root/proc stays mounted; $root is kept" >&2; return; }; fi
+    # Only what this script mounted: removing a root with anything mounted in it would be a poor idea.
+    local mounted
+    for mounted in "$root/dev/pts" "$root/proc"; do
+        ! mountpoint -q "$mounted" || umount "$mounted" || { echo "$mounted stays mounted; $root is kept" >&2; return; }
+    done
     if [ "${KEEP:-0}" = 1 ]; then echo "kept: $root"; else rm -rf --one-file-system "$root"; fi
 }
 trap cleanUp EXIT
@@ -48,6 +51,8 @@ logged() { # <target>: make <target> inside, everything it says in a log
 : >"$folder/times.txt"
 timed bootstrap bootstrapRoot
 mount -t proc proc "$root/proc"
+# Pseudo terminals, as every booted system has them: the tests of serial links open pairs.
+mount -t devpts devpts "$root/dev/pts" -o newinstance,ptmxmode=0666
 # Names are looked up as the host does it.
 cp -L /etc/resolv.conf "$root/etc/resolv.conf"
 # Where the host trusts a certificate authority of its own network, node in the root has to trust it as well.
