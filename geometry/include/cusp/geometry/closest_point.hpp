@@ -39,7 +39,8 @@ public:
     [[nodiscard]] virtual Footpoint closest(const Vector3& query) const = 0;
 
     /// closest() of every query, in parallel; `footpoints` has the size of `queries`. Footpoints left from an earlier call
-    /// (`warm`) are where the search starts: faster when the queries moved little, and never another answer.
+    /// (`warm`) are where the search starts: faster when the queries moved little, and never another answer, though on curved
+    /// faces its last digits may differ (1e-10 mm; 1e-9 mm on trimmed faces).
     virtual void closest(std::span<const Vector3> queries, std::span<Footpoint> footpoints, bool warm) const = 0;
 
     /// Axis-parallel box that holds the shape.
