@@ -55,8 +55,9 @@ double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 int main() {
     constexpr std::uint64_t seed = 1;
     const TriangleMesh mesh = jittered(seed);
-    std::printf("drop-cutter, %zu triangles, vertices jittered by 30 %% of the cell, D16, 100 x 100 mm, seed %llu, one core\n",
-                mesh.triangles.size(), static_cast<unsigned long long>(seed));
+    std::printf(
+        "drop-cutter, %zu triangles, vertices jittered by 30 %% of the cell, D16, 100 x 100 mm, seed %llu, one core\n",
+        mesh.triangles.size(), static_cast<unsigned long long>(seed));
     std::printf("%-12s %14s %18s %8s\n", "cutter", "CL/s (CPU)", "OpenCAMLib CL/s *", "ratio");
     struct Row {
         const char* name;
@@ -88,6 +89,8 @@ int main() {
         else
             std::printf("%-12s %14.0f %18s %8s\n", row.name, rate, "-", "-");
     }
-    std::printf("* measured before on the same class of machine and the same kind of mesh, not in this run (checksum %.6f)\n", checksum);
+    std::printf(
+        "* measured before on the same class of machine and the same kind of mesh, not in this run (checksum %.6f)\n",
+        checksum);
     return 0;
 }

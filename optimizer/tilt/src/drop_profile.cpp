@@ -49,8 +49,7 @@ double DropProfile::lineContact(double aside, double slope) const {
     if (bottom_way > 0.0 && slope < bottom_tan_ * bottom_way / bottom_end_)
         return coneContact(aside, slope / bottom_tan_);
     const double corner_way = wayAt(corner_end_, aside);
-    const bool on_corner =
-        flank_is_upright_ || (corner_way > 0.0 && slope < flank_cot_ * corner_way / corner_end_);
+    const bool on_corner = flank_is_upright_ || (corner_way > 0.0 && slope < flank_cot_ * corner_way / corner_end_);
     if (on_corner) return corner_radius_ > 0.0 ? cornerContact(aside, slope, bottom_way) : corner_way;
     const double k = slope / flank_cot_;
     const double end = wayAt(radius_, aside);
@@ -79,8 +78,7 @@ double DropProfile::cornerContact(double aside, double slope, double least) cons
         const double value = sine * way - slope * rho * cosine;
         (value > 0.0 ? high : low) = t;
         const double rise = way > 0.0 ? sine * rho * corner_radius_ * cosine / way : 0.0;
-        const double by_t =
-            cosine * way + rise - slope * (corner_radius_ * cosine * cosine - rho * sine);
+        const double by_t = cosine * way + rise - slope * (corner_radius_ * cosine * cosine - rho * sine);
         double next = by_t > 0.0 ? t - value / by_t : low;
         if (!(next > low && next < high)) next = (low + high) / 2.0;
         if (std::abs(next - t) < angle_tolerance) break;

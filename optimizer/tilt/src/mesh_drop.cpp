@@ -65,7 +65,8 @@ std::vector<Facet> facetsOf(const geometry::TriangleMesh& mesh) {
     }
     std::sort(edges.begin(), edges.end());
     for (std::size_t i = 0; i < edges.size(); ++i)
-        if (i == 0 || edges[i].first != edges[i - 1].first) facets[edges[i].second / 3].owns_edge[edges[i].second % 3] = true;
+        if (i == 0 || edges[i].first != edges[i - 1].first)
+            facets[edges[i].second / 3].owns_edge[edges[i].second % 3] = true;
     return facets;
 }
 
@@ -97,7 +98,8 @@ struct MeshDrop::Index {
             centers.extend((facets[i].corner[0] + facets[i].corner[1] + facets[i].corner[2]) / 3.0);
         }
         const std::size_t here = nodes.size();
-        nodes.push_back({hull.min().x(), hull.min().y(), hull.max().x(), hull.max().y(), hull.max().z(), 0, first, count});
+        nodes.push_back(
+            {hull.min().x(), hull.min().y(), hull.max().x(), hull.max().y(), hull.max().z(), 0, first, count});
         if (count <= leaf_triangles) return;
         Eigen::Index axis = 0;
         centers.sizes().maxCoeff(&axis);

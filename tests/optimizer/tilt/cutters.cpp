@@ -10,7 +10,8 @@
 namespace cusp::test_support {
 namespace {
 
-geometry::Cutter shaped(toolpath::Tool::Shape shape, double diameter_mm, double corner_mm = 0.0, double taper_rad = 0.0) {
+geometry::Cutter shaped(toolpath::Tool::Shape shape, double diameter_mm, double corner_mm = 0.0,
+                        double taper_rad = 0.0) {
     toolpath::Tool tool;
     tool.shape = shape;
     tool.diameter_mm = diameter_mm;

@@ -156,8 +156,8 @@ TEST(DropCutterBruteForce, RandomTrianglesTouchAndAreNotCut) {
         for (std::uint32_t i = 0; i < triangles; ++i) {
             const Vector3 center(random.uniform(-8, 8), random.uniform(-8, 8), random.uniform(-3, 3));
             for (int k = 0; k < 3; ++k)
-                mesh.vertices.push_back(
-                    center + Vector3(random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-6, 6)));
+                mesh.vertices.push_back(center +
+                                        Vector3(random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-6, 6)));
             mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         }
         const NamedCutter& one = cutters[static_cast<std::size_t>(scene) % cutters.size()];
@@ -170,7 +170,8 @@ TEST(DropCutterBruteForce, RandomTrianglesTouchAndAreNotCut) {
         const Vector3 tip(x, y, contact->tip_z_mm);
         double least = std::numeric_limits<double>::infinity();
         for (const auto& t : mesh.triangles)
-            least = std::min(least, leastDistance(*body, {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, tip));
+            least = std::min(
+                least, leastDistance(*body, {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, tip));
         EXPECT_NEAR(least, 0.0, 1e-7) << one.name << ", scene " << scene << ", seed " << seed;
         const Vector3 touched = contact->contact_mm - tip;
         EXPECT_NEAR(body->at(std::hypot(touched.x(), touched.y()), touched.z()).distance_mm, 0.0, 1e-9) << one.name;
@@ -254,7 +255,8 @@ TEST(BallDrop, OnTheBenchmarkSurface) {
             constexpr int cells = 600;
             for (int i = 0; i <= cells; ++i)
                 for (int j = 0; j <= cells; ++j)
-                    nearest = std::min(nearest, ((*faces)[0].evaluate(i / double{cells}, j / double{cells}).position - center).norm());
+                    nearest = std::min(
+                        nearest, ((*faces)[0].evaluate(i / double{cells}, j / double{cells}).position - center).norm());
             EXPECT_GE(nearest, 6.0 - 1e-6);
             EXPECT_LE(nearest, 6.0 + 2e-3);  // the grid's own spacing: 0.17²/(2·6)
             EXPECT_NEAR((contact->contact_mm - center).norm(), 6.0, 1e-6);

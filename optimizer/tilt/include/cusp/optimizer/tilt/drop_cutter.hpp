@@ -43,7 +43,8 @@ public:
 class MeshDrop : public DropShape {
 public:
     /// The mesh need not be closed. Errors: `simulation.cutter`; `tilt.empty-mesh`.
-    [[nodiscard]] static base::Result<MeshDrop> make(const geometry::TriangleMesh& mesh, const geometry::Cutter& cutter);
+    [[nodiscard]] static base::Result<MeshDrop> make(const geometry::TriangleMesh& mesh,
+                                                     const geometry::Cutter& cutter);
     MeshDrop(MeshDrop&&) noexcept;
     MeshDrop& operator=(MeshDrop&&) noexcept;
     MeshDrop(const MeshDrop&) = delete;
@@ -68,7 +69,8 @@ private:
 class BallDrop : public DropShape {
 public:
     /// `shape` must outlive this. Errors: `simulation.cutter`; `tilt.not-a-ball`.
-    [[nodiscard]] static base::Result<BallDrop> make(const geometry::NominalShape& shape, const geometry::Cutter& cutter);
+    [[nodiscard]] static base::Result<BallDrop> make(const geometry::NominalShape& shape,
+                                                     const geometry::Cutter& cutter);
 
     [[nodiscard]] std::optional<DropContact> drop(double x_mm, double y_mm,
                                                   std::uint32_t hint = DropContact::no_place) const override;
