@@ -6,21 +6,18 @@
 #include "control_panel.hpp"
 #include "input.hpp"
 #include "machine_lookup.hpp"
+#include "setup_lookup.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/json_report.hpp>
 #include <cusp/base/units.hpp>
-#include <cusp/comm/controller/control_host.hpp>
-#include <cusp/comm/dnc/run_transfer.hpp>
-#include <cusp/comm/link/transports.hpp>
-#include <cusp/dynamics/tool_path.hpp>
+#include <cusp/comm/controller/control_station.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -28,10 +25,8 @@ namespace cusp::cli {
 
 namespace {
 
-/// Between two looks at a link.
+/// Between two looks at the links.
 constexpr double look_s = 0.004;
-/// What the control makes up for at once when this process was held up.
-constexpr double most_behind_s = 0.25;
 constexpr double longest_run_s = 1e6;
 constexpr std::size_t largest_program = std::size_t{256} << 20U;
 
@@ -43,6 +38,7 @@ struct Flags {
     std::string record;
     std::vector<std::string> allowed;
     std::vector<double> wcs_origin_mm;
+    std::string setup;
     double tool_length_mm = 100.0;
     double lift_mm = 2.0;
     double fifo_kb = 30.0;
@@ -64,8 +60,8 @@ comm::ControlOptions optionsOf(const Flags& flags) {
 /// What the axes did, as a table: docs/controller.md.
 class Record {
 public:
-    Record(base::OutputTarget target, const kinematics::Machine& machine, const comm::ControlOptions& options)
-        : target_(std::move(target)), machine_(machine), tool_(machine, options.tool_length_mm, options.wcs_origin_mm) {
+    Record(base::OutputTarget target, const kinematics::Machine& machine)
+        : target_(std::move(target)), machine_(machine) {
         std::string head = "time_s";
         for (const std::string& name : machine.linearNames()) head += "," + name + "_mm";
         for (const std::string& name : machine.rotaryNames()) head += "," + name + "_deg";
@@ -77,7 +73,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) row += fmt::format(",{:.6f}", sample.axes[i]);
         for (std::size_t i = 0; i < machine_.rotaryCount(); ++i)
             row += fmt::format(",{:.6f}", base::degFromRad(sample.axes[3 + i]));
-        const dynamics::ToolPlace at = tool_.placeOf(sample.axes);
+        const dynamics::ToolPlace& at = sample.tool;
         write(row + fmt::format(",{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{}\n", at.tip_mm.x(), at.tip_mm.y(),
                                 at.tip_mm.z(), at.axis.x(), at.axis.y(), at.axis.z(), sample.line));
     }
@@ -94,7 +90,6 @@ private:
     }
     base::OutputTarget target_;
     const kinematics::Machine& machine_;
-    dynamics::ToolPath tool_;
     base::Diagnostics failure_;
 };
 
@@ -144,42 +139,21 @@ ExitCode runProgram(const Flags& flags, comm::VirtualControl& control) {
     return control.status().finished ? ExitCode::Done : ExitCode::FoundSomething;
 }
 
-using Servers = std::vector<std::unique_ptr<comm::LinkServer>>;
-
-base::Result<Servers> openServers(const Flags& flags, comm::RequestHandler& handler) {
-    Servers servers;
-    const comm::ListenOptions options{.beyond_loopback = flags.beyond_loopback, .allowed = flags.allowed};
-    for (const std::string& text : flags.listen) {
-        const auto url = comm::parseLinkUrl(text);
-        if (!url) return base::fail(url.error());
-        auto server = comm::openServer(*url, handler, options);
-        if (!server) return base::fail(server.error());
-        servers.push_back(*std::move(server));
-    }
-    return servers;
-}
-
 ExitCode serve(const Flags& flags, comm::VirtualControl& control) {
-    comm::ControlHost host(control, {.store_folder = flags.store});
-    std::random_device device;
-    comm::Receiver receiver({}, host, (std::uint64_t{device()} << 32U) | device());
-    comm::ReceiverService service(receiver);
-    const auto servers = openServers(flags, service);
-    if (!servers) return failWith(servers.error());
-    for (const auto& server : *servers) say("listening on " + server->name() + "\n");
-    ControlPanel panel(control, receiver);
+    comm::StationOptions options;
+    options.host.store_folder = flags.store;
+    options.listen = {.beyond_loopback = flags.beyond_loopback, .allowed = flags.allowed};
+    comm::ControlStation station(control, options);
+    for (const std::string& url : flags.listen) {
+        const auto name = station.listen(url);
+        if (!name) return failWith(name.error());
+        say("listening on " + *name + "\n");
+    }
+    ControlPanel panel(station);
     const double begin_s = comm::transferClockSeconds();
-    double lost_s = 0.0;  // by which the control is behind the clock for good
     while (!interrupted()) {
-        for (const auto& server : *servers)
-            if (const auto done = server->step(look_s / static_cast<double>(servers->size())); !done)
-                return failWith(done.error());
+        if (const auto done = station.step(look_s); !done) return failWith(done.error());
         const double now_s = comm::transferClockSeconds();
-        const double due_s = now_s - begin_s - lost_s - control.status().time_s;
-        lost_s += std::max(0.0, due_s - most_behind_s);
-        if (due_s > 0.0) control.advance(std::min(due_s, most_behind_s));
-        receiver.tick(now_s);
-        host.follow(receiver);
         panel.tellChanges();
         if (!panel.listen(now_s)) return ExitCode::Done;
         if (flags.seconds > 0.0 && now_s - begin_s > flags.seconds) return ExitCode::Done;
@@ -195,13 +169,20 @@ ExitCode runController(const Flags& flags) {
         report.error("io.store", "the store is no folder: " + flags.store);
         return failWith(report);
     }
-    const comm::ControlOptions options = optionsOf(flags);
+    comm::ControlOptions options = optionsOf(flags);
+    std::optional<machine::SetupDefinition> setup;
+    if (!flags.setup.empty()) {
+        auto read = loadSetup(flags.setup);
+        if (!read) return failWith(read.error());
+        setup = *std::move(read);
+        options.setup = &*setup;
+    }
     comm::VirtualControl control(machine->file, machine->model, options);
     std::optional<Record> record;
     if (!flags.record.empty()) {
         auto target = base::OutputTarget::open(flags.record);
         if (!target) return failWith(target.error());
-        record.emplace(*std::move(target), machine->model, options);
+        record.emplace(*std::move(target), machine->model);
         control.record([&record](const comm::ControlSample& sample) { record->add(sample); });
     }
     const ExitCode code = flags.run.empty() ? serve(flags, control) : runProgram(flags, control);
@@ -227,12 +208,16 @@ void addControllerCommand(CLI::App& app, Action& action) {
     controller->add_option("--record", flags->record, "CSV of every sample of the axes and of the tool.");
     controller->add_flag("--beyond-loopback", flags->beyond_loopback, "Listens on other addresses than loopback.");
     controller->add_option("--allow", flags->allowed, "Address or network that may connect, besides loopback.");
+    CLI::Option* setup = controller->add_option("--setup", flags->setup,
+                                                "Setup file: how long the tools are and where the work offsets lie.");
     controller->add_option("--tool-length-mm", flags->tool_length_mm, "Of every tool, gauge point to tip (100).")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::NonNegativeNumber)
+        ->excludes(setup);
     controller
         ->add_option("--wcs-origin-mm", flags->wcs_origin_mm,
                      "Origin of every work offset in machine coordinates, X Y Z (0 0 0).")
-        ->expected(3);
+        ->expected(3)
+        ->excludes(setup);
     controller->add_option("--lift-mm", flags->lift_mm, "Lift along the tool axis when the FIFO runs dry (2).")
         ->check(CLI::NonNegativeNumber);
     controller->add_option("--fifo-kb", flags->fifo_kb, "Reload FIFO of drip feeding (30).")

@@ -57,10 +57,7 @@ bool ControlPanel::act(const std::string& line, double now_s) {
     const bool numeric = static_cast<bool>(digits >> number);
     if (word == "quit") return false;
     if (word == "start") {
-        // What a transfer has armed is started through its receiver, so that the sender learns of it.
-        const bool armed = receiver_.state() == comm::ReceiverState::Armed;
-        const bool done = armed ? receiver_.startLocally(now_s) == comm::Reason::None : control_.start();
-        if (!done) sayNow("nothing to start\n");
+        if (!station_.start()) sayNow("nothing to start\n");
     } else if (word == "stop")
         control_.stop();
     else if (word == "reset") {

@@ -3,9 +3,7 @@
 // The operator's side of the virtual control: commands on standard input, events on standard output.
 #pragma once
 
-#include <cusp/comm/controller/control_host.hpp>
-#include <cusp/comm/controller/virtual_control.hpp>
-#include <cusp/comm/dnc/receiver.hpp>
+#include <cusp/comm/controller/control_station.hpp>
 
 #include <string>
 #include <string_view>
@@ -15,7 +13,8 @@ namespace cusp::cli {
 /// Whoever stands at the control. Cycle start is theirs: a sender's START has an effect only while they have enabled it.
 class ControlPanel {
 public:
-    ControlPanel(comm::VirtualControl& control, comm::Receiver& receiver) : control_(control), receiver_(receiver) {}
+    explicit ControlPanel(comm::ControlStation& station)
+        : station_(station), control_(station.control()), receiver_(station.receiver()) {}
 
     /// Reads what has been typed and does it. False after "quit".
     [[nodiscard]] bool listen(double now_s);
@@ -26,6 +25,7 @@ private:
     [[nodiscard]] bool act(const std::string& line, double now_s);
     void tellStatus() const;
 
+    comm::ControlStation& station_;
     comm::VirtualControl& control_;
     comm::Receiver& receiver_;
     std::string typed_;

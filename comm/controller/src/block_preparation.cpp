@@ -56,11 +56,13 @@ void BlockPreparation::begin(const AxisVector& axes) {
     smoothing_ = false;
     tolerance_mm_ = file_.control.cycle832_tolerance_mm;
     orientation_tolerance_rad_ = file_.control.cycle832_orientation_tolerance_rad;
-    tool_length_mm_ = options_.tool_length_mm;
-    origin_mm_ = options_.wcs_origin_mm;
+    placement_ = {options_.tool_length_mm, options_.wcs_origin_mm};
+    if (options_.setup != nullptr) placement_ = {};
 }
 
-dynamics::ToolPath BlockPreparation::toolPath() const { return {machine_, tool_length_mm_, origin_mm_}; }
+dynamics::ToolPath BlockPreparation::toolPath() const {
+    return {machine_, placement_.tool_length_mm, placement_.origin_mm};
+}
 
 void BlockPreparation::refuse(int number, std::size_t line, std::string text) {
     if (!alarm_) alarm_ = Alarm{number, line, std::move(text)};
@@ -70,12 +72,7 @@ void BlockPreparation::motion(const nc::ExecutedMotion& motion) {
     if (alarm_) return;
     if (motion.state->compensation != nc::RadiusCompensation::Off)
         return refuse(alarm::program, motion.place.line, "cutter radius compensation (G41, G42) is not run here");
-    // D0 takes the tool out of the reckoning; there is no tool before the first call either.
-    const double length_mm = motion.state->cutting_edge == 0 ? 0.0 : options_.tool_length_mm;
-    if (length_mm != tool_length_mm_) {
-        tool_length_mm_ = length_mm;
-        items_.emplace_back(RestEvent{RestEvent::Kind::ToolLength, motion.place.line, 0.0, length_mm});
-    }
+    if (!place(motion)) return;
     auto block = path(motion);
     if (!block) return refuse(alarm::not_reached, motion.place.line, "the axes cannot bring the tool there");
     if (!withinTravel(*block, motion.place.line)) return;
@@ -88,6 +85,34 @@ void BlockPreparation::motion(const nc::ExecutedMotion& motion) {
     block->orientation_tolerance_rad = motion.state->orientation_tolerance_rad.value_or(orientation_tolerance_rad_);
     axes_ = block->points.back().axes;
     items_.emplace_back(*std::move(block));
+}
+
+/// D0 takes the tool out of the reckoning; with a setup there is no tool before the first call either. A block in machine
+/// coordinates needs to know neither.
+bool BlockPreparation::place(const nc::ExecutedMotion& motion) {
+    ToolPlacement now = placement_;
+    const bool without_tool = motion.state->cutting_edge == 0;
+    if (options_.setup == nullptr) {
+        now.tool_length_mm = without_tool ? 0.0 : options_.tool_length_mm;
+    } else if (!motion.machine_coordinates) {
+        if (!without_tool && !motion.state->tool.empty() && !motion.placement.tool_length_mm) {
+            refuse(alarm::no_tool_length, motion.place.line,
+                   fmt::format("the setup does not say how long tool {} is", motion.state->tool));
+            return false;
+        }
+        if (!motion.placement.origin_mm) {
+            refuse(alarm::no_work_offset, motion.place.line,
+                   motion.state->work_offset.empty()
+                       ? std::string("no work offset is active (G54 …)")
+                       : fmt::format("the setup does not say where {} lies", motion.state->work_offset));
+            return false;
+        }
+        now = {motion.placement.tool_length_mm.value_or(0.0), toEigen(*motion.placement.origin_mm)};
+    }
+    if (now == placement_) return true;
+    placement_ = now;
+    items_.emplace_back(RestEvent{RestEvent::Kind::Placement, motion.place.line, 0.0, placement_});
+    return true;
 }
 
 RotaryValues BlockPreparation::programmedRotary(const nc::ExecutedMotion& motion) const {
@@ -237,9 +262,9 @@ bool BlockPreparation::withinTravel(const PathBlock& block, std::size_t line) {
 void BlockPreparation::event(const nc::BlockPlace& place, const nc::ExecutedEvent& event) {
     if (alarm_) return;
     const auto rest = [&](RestEvent::Kind kind, double seconds = 0.0) {
-        items_.emplace_back(RestEvent{kind, place.line, seconds, tool_length_mm_});
+        items_.emplace_back(RestEvent{kind, place.line, seconds, placement_});
     };
-    if (std::holds_alternative<nc::ToolChange>(event)) rest(RestEvent::Kind::ToolLength);
+    if (std::holds_alternative<nc::ToolChange>(event)) rest(RestEvent::Kind::Placement);
     if (const auto* dwell = std::get_if<nc::DwellTime>(&event))
         rest(RestEvent::Kind::Dwell, dwell->seconds.value_or(0.0));
     if (const auto* stop = std::get_if<nc::MachineStop>(&event))

@@ -18,13 +18,23 @@
 
 namespace cusp::comm {
 
+/// How long the tool is, and where the origin of the work offset lies.
+struct ToolPlacement {
+    double tool_length_mm = 0.0;
+    geometry::Vector3 origin_mm = geometry::Vector3::Zero();
+
+    [[nodiscard]] bool operator==(const ToolPlacement& other) const {
+        return tool_length_mm == other.tool_length_mm && origin_mm == other.origin_mm;
+    }
+};
+
 /// Something the machine comes to rest for.
 struct RestEvent {
-    enum class Kind { Dwell, Stop, OptionalStop, ToolLength, End };
+    enum class Kind { Dwell, Stop, OptionalStop, Placement, End };
     Kind kind = Kind::Dwell;
     std::size_t line = 0;
-    double seconds = 0.0;         ///< of a dwell
-    double tool_length_mm = 0.0;  ///< from here on
+    double seconds = 0.0;     ///< of a dwell
+    ToolPlacement placement;  ///< from here on
 };
 
 using PreparedItem = std::variant<dynamics::PathBlock, RestEvent>;
@@ -46,7 +56,7 @@ public:
     [[nodiscard]] const std::optional<Alarm>& alarm() const { return alarm_; }
     void setOverride(double override_share) { override_ = override_share; }
     [[nodiscard]] dynamics::ToolPath toolPath() const;
-    [[nodiscard]] double toolLength() const { return tool_length_mm_; }
+    [[nodiscard]] const ToolPlacement& placement() const { return placement_; }
 
 private:
     [[nodiscard]] std::optional<dynamics::PathBlock> path(const post::reader::ExecutedMotion& motion);
@@ -56,6 +66,8 @@ private:
                                                                     const kinematics::RotaryValues& near) const;
     [[nodiscard]] kinematics::RotaryValues programmedRotary(const post::reader::ExecutedMotion& motion) const;
     [[nodiscard]] double feedOf(const post::reader::ExecutedMotion& motion, const dynamics::PathBlock& block) const;
+    /// False, with the alarm set, where the setup does not say it.
+    [[nodiscard]] bool place(const post::reader::ExecutedMotion& motion);
     [[nodiscard]] bool withinTravel(const dynamics::PathBlock& block, std::size_t line);
     void refuse(int number, std::size_t line, std::string text);
 
@@ -65,8 +77,7 @@ private:
     post::reader::ForwardChain chain_;
     std::deque<PreparedItem> items_;
     dynamics::AxisVector axes_{};
-    double tool_length_mm_ = 0.0;
-    geometry::Vector3 origin_mm_ = geometry::Vector3::Zero();
+    ToolPlacement placement_;
     std::optional<Alarm> alarm_;
     double override_ = 1.0;
     bool smoothing_ = false;  ///< CYCLE832

@@ -3,6 +3,7 @@
 // Choosing, starting, searching and resetting programs; reading them line by line.
 #include "control_state.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace cusp::comm {
@@ -28,10 +29,10 @@ VirtualControl::State::State(const post::MachineFile& machine_file, const kinema
       machine(machine_model),
       options(control_options),
       preparation(file, machine, options),
-      tool_length_mm(options.tool_length_mm),
       clock(dynamics::limitsOf(machine), options.tick_s, homeOf(machine)) {
     status.axes = clock.axes();
     preparation.begin(status.axes);
+    placement = preparation.placement();
     status.tool = toolPath().placeOf(status.axes);
     newPlanner();
 }
@@ -48,6 +49,7 @@ void VirtualControl::State::newPlanner() {
 
 void VirtualControl::State::choose(std::string name) {
     status.program = std::move(name);
+    ++status.chosen;
     status.finished = false;
     status.executing_line = status.completed_line = status.read_line = status.resume_line = 0;
     chosen_ = true;
@@ -57,13 +59,16 @@ void VirtualControl::State::choose(std::string name) {
 void VirtualControl::State::openProgram() {
     report_ = base::Diagnostics();
     post::reader::ReaderOptions reading;
-    reading.setup.tool_length_mm = options.tool_length_mm;
-    reading.setup.wcs_origin_mm = {options.wcs_origin_mm.x(), options.wcs_origin_mm.y(), options.wcs_origin_mm.z()};
+    reading.setup.definition = options.setup;
+    if (options.setup == nullptr) {
+        reading.setup.tool_length_mm = options.tool_length_mm;
+        reading.setup.wcs_origin_mm = {options.wcs_origin_mm.x(), options.wcs_origin_mm.y(), options.wcs_origin_mm.z()};
+    }
     if (!feed.isFifo()) feed.open(text);
     run_ =
         std::make_unique<post::reader::ProgramRun>(feed.stream(), status.program, file, reading, preparation, report_);
     preparation.begin(status.axes);
-    tool_length_mm = options.tool_length_mm;
+    placement = preparation.placement();
     read_out_ = false;
     status.finished = false;
     status.least_queued_blocks = options.look_ahead_blocks;
@@ -125,7 +130,7 @@ void VirtualControl::State::approach() {
     const AxisVector home = homeOf(machine);
     for (std::size_t i = 0; i < 3; ++i)
         if (machine.linearNames()[i] == file.control.retract_axis) up[i] = over[i] = home[i];
-    tool_length_mm = preparation.toolLength();
+    placement = preparation.placement();
     const dynamics::ToolPath tool = toolPath();
     for (const auto& [from, to] : {std::pair{status.axes, up}, std::pair{up, over}, std::pair{over, target}}) {
         dynamics::PathBlock block = tool.axesLine(from, to);
@@ -189,7 +194,7 @@ void VirtualControl::State::takeItem() {
 
 void VirtualControl::State::addBlock(dynamics::PathBlock block, std::size_t line) {
     block.id = next_id_++;
-    blocks_.push_back({block.id, line, std::max(1.0, status.override_share)});
+    blocks_.push_back({block.id, line, std::max(1.0, status.override_share), !std::isfinite(block.feed_mm_per_s)});
     planner_->add(block);
     added_since_plan_ = true;
 }

@@ -27,7 +27,9 @@ struct VirtualControl::State {
     void finishReset();
     base::Result<void> search(std::size_t line);
     void tick();
-    [[nodiscard]] dynamics::ToolPath toolPath() const { return {machine, tool_length_mm, options.wcs_origin_mm}; }
+    [[nodiscard]] dynamics::ToolPath toolPath() const {
+        return {machine, placement.tool_length_mm, placement.origin_mm};
+    }
     /// Nothing moves, and nothing will without somebody doing something.
     [[nodiscard]] bool idle() const;
 
@@ -37,7 +39,7 @@ struct VirtualControl::State {
     ControlStatus status;
     std::function<void(const ControlSample&)> sink;
     BlockPreparation preparation;
-    double tool_length_mm = 0.0;  ///< of what is run now; preparation is ahead
+    ToolPlacement placement;  ///< of what is run now; preparation is ahead
     MotionClock clock;
     ProgramFeed feed;
     std::string text;  ///< of the chosen program, in program memory
@@ -58,6 +60,7 @@ private:
         std::uint64_t id = 0;
         std::size_t line = 0;
         double planned_override = 1.0;
+        bool rapid = false;
     };
     void openProgram();
     void newPlanner();

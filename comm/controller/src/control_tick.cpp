@@ -85,14 +85,18 @@ void VirtualControl::State::follow() {
         status.completed_line = blocks_.front().line;
         blocks_.pop_front();
     }
-    if (piece != nullptr && !blocks_.empty()) status.executing_line = blocks_.front().line;
+    if (piece != nullptr && !blocks_.empty()) {
+        status.executing_line = blocks_.front().line;
+        status.rapid = blocks_.front().rapid;
+    }
     status.queued_blocks = blocks_.size();
     if (status.state == ChannelState::Active && !read_out_)
         status.least_queued_blocks = std::min(status.least_queued_blocks, status.queued_blocks);
     status.fifo_bytes = feed.filled();
     status.fifo_capacity = feed.isFifo() ? options.fifo_bytes : 0;
     status.planning = planner_->summary();
-    if (sink && status.state != ChannelState::Reset) sink({status.time_s, status.axes, status.executing_line});
+    if (sink && status.state != ChannelState::Reset)
+        sink({status.time_s, status.axes, status.executing_line, status.tool});
     const bool lifting = barrier_ && barrier_->kind == Barrier::Kind::Starved;
     if (lifting && in_contact_ && (status.tool.tip_mm - contact_tip_mm_).norm() > lifted_mm) {
         in_contact_ = false;
@@ -134,7 +138,7 @@ void VirtualControl::State::passEvent(const RestEvent& event) {
         case RestEvent::Kind::OptionalStop:
             if (optional_stop) interrupt("M1");
             return;
-        case RestEvent::Kind::ToolLength: tool_length_mm = event.tool_length_mm; return;
+        case RestEvent::Kind::Placement: placement = event.placement; return;
         case RestEvent::Kind::End:
             run_.reset();
             newPlanner();

@@ -31,11 +31,13 @@ bool VirtualControl::select(std::string name, std::string text) {
 
 bool VirtualControl::selectFifo(std::string name) {
     if (state_->status.state != ChannelState::Reset || !state_->clock.atRest()) return false;
+    state_->text.clear();
     state_->feed.openFifo(state_->options.fifo_bytes);
     state_->choose(std::move(name));
     return true;
 }
 
+const std::string& VirtualControl::programText() const { return state_->text; }
 std::size_t VirtualControl::fifoFree() const { return state_->feed.free(); }
 bool VirtualControl::feed(std::string_view lines) { return state_->feed.put(lines); }
 void VirtualControl::endFeed() { state_->feed.end(); }

@@ -156,18 +156,40 @@ base::Result<void> checkAllowed(const ListenOptions& options) {
     return {};
 }
 
-base::Result<Listening> listenTcp(const LinkUrl& url, const ListenOptions& options) {
+bool mayConnect(const std::string& numeric_address, const ListenOptions& options) {
+    const auto address = parseRange(numeric_address);
+    return address && address->bits == 128 && mayEnter(address->address, options);
+}
+
+namespace {
+
+base::Result<Addresses> resolveListening(const LinkUrl& url, const ListenOptions& options) {
     if (auto checked = checkAllowed(options); !checked) return base::fail(std::move(checked).error());
     auto addresses = resolve(url, true);
-    if (!addresses) return base::fail(std::move(addresses).error());
-    const addrinfo* address = addresses->get();
-    sockaddr_storage bound{};
-    std::memcpy(&bound, address->ai_addr, address->ai_addrlen);
-    if (!options.beyond_loopback && !isLoopback(addressOf(bound)))
+    if (!addresses) return addresses;
+    sockaddr_storage first{};
+    std::memcpy(&first, (*addresses)->ai_addr, (*addresses)->ai_addrlen);
+    if (!options.beyond_loopback && !isLoopback(addressOf(first)))
         return base::fail(
             "link.not-loopback",
             "is no loopback address; listening beyond this machine has to be asked for, with a list of who may connect",
             {url.text, 0, 0, {}});
+    return addresses;
+}
+
+}  // namespace
+
+base::Result<void> checkListening(const LinkUrl& url, const ListenOptions& options) {
+    auto addresses = resolveListening(url, options);
+    if (!addresses) return base::fail(std::move(addresses).error());
+    return {};
+}
+
+base::Result<Listening> listenTcp(const LinkUrl& url, const ListenOptions& options) {
+    auto addresses = resolveListening(url, options);
+    if (!addresses) return base::fail(std::move(addresses).error());
+    const addrinfo* address = addresses->get();
+    sockaddr_storage bound{};
     Listening out;
     out.socket = FileDescriptor(::socket(address->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (!out.socket.open()) return failOpen(url.text, errno);

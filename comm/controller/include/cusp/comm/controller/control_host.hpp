@@ -14,7 +14,7 @@ namespace cusp::comm {
 
 struct ControlHostOptions {
     /// Not empty: every accepted program is kept there as NAME.MPF, byte for byte. The folder must exist.
-    std::string store_folder;
+    std::string store_folder{};
     std::size_t memory_bytes = std::size_t{256} << 20U;
 };
 

@@ -6,6 +6,7 @@
 #include <cusp/base/result.hpp>
 #include <cusp/dynamics/motion_planner.hpp>
 #include <cusp/kinematics/machine.hpp>
+#include <cusp/machine/setup_definition.hpp>
 #include <cusp/post/control/control_definition.hpp>
 
 #include <cstddef>
@@ -27,6 +28,9 @@ struct ControlOptions {
     double lift_mm = 2.0;                                         ///< along the tool axis, when the FIFO runs dry
     double tool_length_mm = 100.0;                                ///< of every tool
     geometry::Vector3 wcs_origin_mm = geometry::Vector3::Zero();  ///< of every work offset, machine frame
+    /// When given, tool lengths and work offsets are its, and the two above do not count. Must outlive the control. What
+    /// a program needs and the setup does not say is an alarm.
+    const machine::SetupDefinition* setup = nullptr;
 };
 
 /// OPC 40502 (CncChannel), status of the channel.
@@ -46,6 +50,8 @@ inline constexpr int no_feed = 10860;
 inline constexpr int not_reached = 10911;  ///< the transformation does not permit this position
 inline constexpr int program = 12080;
 inline constexpr int fifo_empty = 700001;
+inline constexpr int no_tool_length = 700002;  ///< the setup does not know the tool
+inline constexpr int no_work_offset = 700003;  ///< the setup does not know the work offset
 }  // namespace alarm
 
 /// What can be seen of the control. Names follow OPC 40502 where it has one.
@@ -53,6 +59,7 @@ struct ControlStatus {
     ChannelState state = ChannelState::Reset;
     double time_s = 0.0;
     std::string program;
+    std::size_t chosen = 0;  ///< counts up whenever a program is chosen
     std::size_t executing_line = 0;
     std::size_t completed_line = 0;
     std::size_t read_line = 0;
@@ -62,6 +69,7 @@ struct ControlStatus {
     dynamics::AxisVector axes{};
     dynamics::ToolPlace tool;  ///< in the frame of the work offset
     double feed_mm_per_s = 0.0;
+    bool rapid = false;  ///< what is run is a rapid
     std::size_t fifo_bytes = 0;
     std::size_t fifo_capacity = 0;
     std::size_t starvations = 0;
@@ -78,6 +86,7 @@ struct ControlSample {
     double time_s = 0.0;
     dynamics::AxisVector axes{};
     std::size_t line = 0;
+    dynamics::ToolPlace tool;  ///< as the control believes, in the frame of the work offset it runs in
 };
 
 /// Deterministic: time passes only by `advance`, and the same calls give the same samples. One thread.
@@ -93,6 +102,8 @@ public:
 
     /// Chooses a program. Only in reset.
     [[nodiscard]] bool select(std::string name, std::string text);
+    /// The program that was chosen by `select`; empty while one comes through the FIFO.
+    [[nodiscard]] const std::string& programText() const;
     /// Chooses a program that comes line by line through the FIFO. Only in reset.
     [[nodiscard]] bool selectFifo(std::string name);
     [[nodiscard]] std::size_t fifoFree() const;

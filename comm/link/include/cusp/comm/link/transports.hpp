@@ -20,11 +20,17 @@ struct ListenOptions {
     /// Without it only loopback addresses are listened on.
     bool beyond_loopback = false;
     /// Numeric addresses that may connect, besides loopback: "192.168.0.17", "192.168.0.0/24".
-    std::vector<std::string> allowed;
+    std::vector<std::string> allowed{};
     std::size_t max_clients = 16;
     /// A client that says nothing for so long is dropped.
     double idle_s = 120.0;
 };
+
+/// Whether a client at this numeric address may connect.
+[[nodiscard]] bool mayConnect(const std::string& numeric_address, const ListenOptions& options);
+/// Whether a server may listen at host and port of `url`: for those that open their sockets themselves.
+/// Errors: `link.not-loopback`, `link.allow`, `io.link-open` (no such host).
+[[nodiscard]] base::Result<void> checkListening(const LinkUrl& url, const ListenOptions& options);
 
 /// What listens. One thread calls `step`; nobody is served between.
 class LinkServer {
