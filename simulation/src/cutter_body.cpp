@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace cusp::simulation {
@@ -66,6 +67,27 @@ base::Result<CutterBody> CutterBody::make(const geometry::Cutter& cutter) {
     body.height_mm_ =
         cutter.cutting_height_mm > 0.0 ? cutter.cutting_height_mm : long_enough_diameters * cutter.diameter_mm;
     body.largest_radius_mm_ = radius + body.height_mm_ * std::tan(flank);
+    return body;
+}
+
+base::Result<CutterBody> CutterBody::frustum(double from_mm, double from_diameter_mm, double to_mm,
+                                             double to_diameter_mm) {
+    const double height = to_mm - from_mm;
+    if (!(height > 0.0 && from_diameter_mm >= 0.0 && to_diameter_mm >= 0.0 && from_diameter_mm + to_diameter_mm > 0.0))
+        return base::fail("simulation.part",
+                          fmt::format("a part of the tool from {} to {} mm above the tip, {} mm wide below and {} mm "
+                                      "above, is not possible: it needs a height and a width above 0",
+                                      from_mm, to_mm, from_diameter_mm, to_diameter_mm));
+    const double widening = 0.5 * (to_diameter_mm - from_diameter_mm);
+    const double flank = std::hypot(widening, height);
+    CutterBody body;
+    body.corner_rho_mm_ = 0.5 * from_diameter_mm;
+    body.corner_z_mm_ = from_mm;
+    body.flank_sin_ = widening / flank;
+    body.flank_cos_ = height / flank;
+    body.base_mm_ = from_mm;
+    body.height_mm_ = to_mm;
+    body.largest_radius_mm_ = 0.5 * std::max(from_diameter_mm, to_diameter_mm);
     return body;
 }
 

@@ -26,6 +26,10 @@ public:
 
     /// Errors: `simulation.cutter` when the seven values describe no convex cutter whose parts meet smoothly.
     [[nodiscard]] static base::Result<CutterBody> make(const geometry::Cutter& cutter);
+    /// A cone's frustum or a cylinder, `from_mm` to `to_mm` above the tip: what shanks, holders and heads are stacked of.
+    /// Errors: `simulation.part` when it has no height or no width.
+    [[nodiscard]] static base::Result<CutterBody> frustum(double from_mm, double from_diameter_mm, double to_mm,
+                                                          double to_diameter_mm);
 
     [[nodiscard]] Value at(double rho_mm, double z_mm) const {
         const double x = rho_mm - corner_rho_mm_;
@@ -47,6 +51,8 @@ public:
     /// Of the whole body; the farthest any of its points is from the axis.
     [[nodiscard]] double largestRadius() const { return largest_radius_mm_; }
     [[nodiscard]] double height() const { return height_mm_; }
+    /// Of the lowest point above the tip: 0 for cutters.
+    [[nodiscard]] double base() const { return base_mm_; }
 
 private:
     CutterBody() = default;
@@ -59,6 +65,7 @@ private:
     double flank_sin_ = 0.0;
     double flank_cos_ = 1.0;
     double height_mm_ = 0.0;
+    double base_mm_ = 0.0;
     double largest_radius_mm_ = 0.0;
 };
 
