@@ -3,6 +3,7 @@
 // The order of an inspection: what the points are, where they lie, how far off they are, and whether that can be trusted.
 #include <cusp/inspect/inspection.hpp>
 
+#include "evaluation_field.hpp"
 #include "plausibility.hpp"
 
 #include <algorithm>
@@ -98,6 +99,7 @@ public:
         cut();
         sayWeakFreedoms();
         doubt();
+        addDeviationFields(out_, options_);
         return std::move(out_);
     }
 

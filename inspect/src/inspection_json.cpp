@@ -124,6 +124,17 @@ Json toJson(const SectionResult& section) {
     return out;
 }
 
+Json fieldsOf(const InspectionReport& report) {
+    const auto one = [](const Evaluation& evaluation) {
+        return evaluation.field ? evaluation.field->toJson() : Json(nullptr);
+    };
+    Json out;
+    out["datum"] = one(report.datum);
+    out["best_fit"] = one(report.best_fit);
+    out["reason"] = report.no_field;
+    return out;
+}
+
 }  // namespace
 
 base::Json toJson(const InspectionReport& report) {
@@ -153,6 +164,7 @@ base::Json toJson(const InspectionReport& report) {
     out["sections"] = sections;
     out["decision"] = toJson(report.judged().decision);
     out["doubts"] = report.doubts;
+    out["deviation_field"] = fieldsOf(report);
     return out;
 }
 

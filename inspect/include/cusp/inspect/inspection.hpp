@@ -24,6 +24,8 @@ struct InspectionOptions {
     double probe_form_error_mm = 0.0;        ///< of the stylus, full width; part of a computed uncertainty
     bool judge_in_datum = false;             ///< decide in the fixed datums instead of best-fitted
     std::optional<SectionPlan> sections{};   ///< absent: the sections the file names
+    /// Distance of neighbouring passes as planned; 0: not known. The deviation field keeps waves longer than four of them.
+    double planned_step_over_mm = 0.0;
     OutlierRule outlier_rule{};
     double edge_tolerance_mm =
         0.1;  ///< points farther beyond an edge have no deviation along a normal and do not count

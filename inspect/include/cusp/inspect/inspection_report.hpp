@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cusp/base/json_report.hpp>
+#include <cusp/geometry/deviation_field.hpp>
 #include <cusp/inspect/alignment.hpp>
 #include <cusp/inspect/conformance.hpp>
 #include <cusp/inspect/deviation.hpp>
@@ -12,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,9 @@ struct Evaluation {
     std::size_t beyond_edge = 0;
     std::vector<std::uint32_t> outliers;  ///< by `InspectionReport::outlier_rule`
     Decision decision;
+    /// Smooth over the part, from the points that count and are no outliers; absent where the result is doubtful or the
+    /// points are too few (`InspectionReport::no_field`).
+    std::optional<geometry::DeviationField> field;
 };
 
 struct InspectionReport {
@@ -46,6 +51,7 @@ struct InspectionReport {
     double edge_tolerance_mm = 0.1;
     std::vector<SectionResult> sections;  ///< of the judged evaluation
     std::vector<std::string> doubts;      ///< why no decision can be taken from this, each one sentence
+    std::string no_field;                 ///< why there is no deviation field; empty when there is one
 
     [[nodiscard]] const Evaluation& judged() const { return judged_in_datum ? datum : best_fit; }
 };
