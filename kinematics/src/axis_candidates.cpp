@@ -45,32 +45,30 @@ void AxisPlanner::addWindings(std::size_t axis, double angle_rad) {
 }
 
 /// The free first axis keeps the angles of the states before; at the very start it stays free.
-void AxisPlanner::gatherAtPole(const Layer& layer) {
+void AxisPlanner::gatherAtPole(const AxisSolutions& solved) {
     std::vector<double>& first = positions_[0];
     first.clear();
     if (!layers_.empty()) {
-        const Layer& before = layers_.back();
-        for (std::size_t i = 0; i < before.count; ++i) {
-            const State& state = states_[before.first + i];
-            const double angle = state.rotary_rad[0];
+        for (const Frontier& before : frontier_) {
+            const double angle = before.state.rotary_rad[0];
             const bool known = std::any_of(first.begin(), first.end(), [&](double other) {
                 return other == angle || (std::isnan(other) && std::isnan(angle));
             });
-            if (state.alive && !known) first.push_back(angle);
+            if (before.alive && !known) first.push_back(angle);
         }
     } else {
         first.push_back(last_ ? (*last_)[0] : free_angle);
     }
-    addWindings(1, layer.solved.branch[0][1]);
+    addWindings(1, solved.branch[0][1]);
 }
 
-void AxisPlanner::gatherCandidates(const Layer& layer) {
+void AxisPlanner::gatherCandidates(const AxisSolutions& solved) {
     candidates_.clear();
-    for (std::size_t b = 0; b < layer.solved.count; ++b) {
-        if (layer.solved.pole)
-            gatherAtPole(layer);
+    for (std::size_t b = 0; b < solved.count; ++b) {
+        if (solved.pole)
+            gatherAtPole(solved);
         else
-            for (std::size_t i = 0; i < 2; ++i) addWindings(i, layer.solved.branch[b][i]);
+            for (std::size_t i = 0; i < 2; ++i) addWindings(i, solved.branch[b][i]);
         for (const double first : positions_[0])
             for (const double second : positions_[1])
                 candidates_.push_back({{first, second}, static_cast<std::uint8_t>(b)});
@@ -78,13 +76,13 @@ void AxisPlanner::gatherCandidates(const Layer& layer) {
 }
 
 /// No candidate lies within the limits: the one (or ones, when equal) that lies least beyond them.
-void AxisPlanner::gatherNearest(const Layer& layer) {
+void AxisPlanner::gatherNearest(const AxisSolutions& solved) {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < layer.solved.count; ++b) {
-        RotaryValues nearest = layer.solved.branch[b];
+    for (std::size_t b = 0; b < solved.count; ++b) {
+        RotaryValues nearest = solved.branch[b];
         double excess = 0.0;
         for (std::size_t i = 0; i < machine_.rotaryCount(); ++i) {
-            if (i == 0 && layer.solved.pole) continue;
+            if (i == 0 && solved.pole) continue;
             nearest[i] = nearestWinding(machine_.rotaryRange(i), nearest[i]);
             excess = std::max(excess, machine_.rotaryRange(i).excess(nearest[i]));
         }
@@ -92,25 +90,25 @@ void AxisPlanner::gatherNearest(const Layer& layer) {
         if (excess > least + equal_rad) continue;
         if (excess < least - equal_rad) candidates_.clear();
         least = std::min(least, excess);
-        if (!layer.solved.pole) {
+        if (!solved.pole) {
             candidates_.push_back({nearest, static_cast<std::uint8_t>(b)});
             continue;
         }
-        gatherAtPole(layer);
+        gatherAtPole(solved);
         for (const double first : positions_[0])
             candidates_.push_back({{first, nearest[1]}, static_cast<std::uint8_t>(b)});
     }
 }
 
 void AxisPlanner::handOut(const Layer& layer, const State& chosen) {
-    const Way way =
-        last_ ? wayOf(layer, {.rotary_rad = *last_, .branch = last_branch_}, {chosen.rotary_rad, chosen.branch})
-              : Way::Followed;
+    const Way way = last_ ? wayOf(layer, {.rotary_rad = *last_, .before = 0, .branch = last_branch_},
+                                  {chosen.rotary_rad, chosen.branch})
+                          : Way::Followed;
     PlannedAxes out{.rotary_rad = chosen.rotary_rad,
                     .line = layer.line,
-                    .pole = layer.solved.pole,
+                    .pole = layer.pole,
                     .within_limits = layer.within_limits,
-                    .reached = layer.solved.miss_rad <= options_.axis_tolerance_rad,
+                    .reached = layer.miss_rad <= options_.axis_tolerance_rad,
                     .rewind = way == Way::Rewind,
                     .in_pole_cone = way == Way::ThroughCone};
     for (std::size_t i = 0; i < machine_.rotaryCount() && last_; ++i) {
@@ -136,7 +134,7 @@ void AxisPlanner::handOut(const Layer& layer, const State& chosen) {
 void AxisPlanner::reportProblems(const Layer& layer, const RotaryValues& before, const PlannedAxes& out) {
     const base::Location where{.file = options_.file_name, .line = layer.line, .column = 0, .key = {}};
     if (!out.reached) {
-        const std::string miss = degreeText(layer.solved.miss_rad);
+        const std::string miss = degreeText(layer.miss_rad);
         report_.error(
             "kinematics.axis-unreachable",
             machine_.rotaryCount() == 0

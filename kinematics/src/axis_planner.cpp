@@ -57,16 +57,15 @@ double AxisPlanner::turned(std::size_t axis, double from, double to) const {
 }
 
 /// What is needed of the way from the point before to judge every pair of candidates at once.
-void AxisPlanner::follow(Layer& layer, const Vector3& axis) {
-    const double gap_rad = machine_.branchGap(axis);
+void AxisPlanner::follow(Layer& layer, const AxisSolutions& solved, const Vector3& axis) {
+    const double gap_rad = solved.gap_rad;
     if (solved_before_ && layer.cutting) {
         // Refined, a change of branch at the meeting place parts from the great circle by the gap there, and by up to a
         // third more when the parts on either side differ in length.
         constexpr double share = 0.7;
         const double limit_rad = share * options_.orientation_tolerance_rad;
         const double chord = (axis - axis_before_).norm();
-        const bool free_end =
-            layer.solved.pole || solved_before_->pole || layer.solved.count < 2 || solved_before_->count < 2;
+        const bool free_end = solved.pole || solved_before_->pole || solved.count < 2 || solved_before_->count < 2;
         constexpr double arc_per_chord = std::numbers::pi / 2.0;
         const double cone_rad = std::max(limit_rad, share * options_.pole_cone_rad);
         layer.branches_meet = free_end;
@@ -76,9 +75,9 @@ void AxisPlanner::follow(Layer& layer, const Vector3& axis) {
             layer.cone_meets = nearest_rad <= cone_rad;
         }
         if (!free_end)
-            for (std::size_t b = 0; b < 2; ++b) layer.follow[b] = followStep(*solved_before_, layer.solved, b);
+            for (std::size_t b = 0; b < 2; ++b) layer.follow[b] = followStep(*solved_before_, solved, b);
     }
-    solved_before_ = layer.solved;
+    solved_before_ = solved;
     axis_before_ = axis;
     gap_before_rad_ = gap_rad;
 }
@@ -98,6 +97,13 @@ AxisPlanner::Way AxisPlanner::wayOf(const Layer& layer, const State& from, const
     return layer.cone_meets && from.branch != to.branch && half_turn ? Way::ThroughCone : Way::Rewind;
 }
 
+/// Of the axes alone, the slower one.
+double AxisPlanner::turnTime(const State& from, const Candidate& to) const {
+    const bool was_free = std::isnan(from.rotary_rad[0]);
+    const double first = was_free ? 0.0 : turned(0, from.rotary_rad[0], to.rotary_rad[0]);
+    return std::max(first * seconds_per_rad_[0], turned(1, from.rotary_rad[1], to.rotary_rad[1]) * seconds_per_rad_[1]);
+}
+
 AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const State& from, const Candidate& to) const {
     const bool was_free = std::isnan(from.rotary_rad[0]);
     const double first = was_free ? 0.0 : turned(0, from.rotary_rad[0], to.rotary_rad[0]);
@@ -110,53 +116,64 @@ AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const State& from, c
             .start_nrad = was_free && !std::isnan(to.rotary_rad[0]) ? nano(std::abs(to.rotary_rad[0])) : 0};
 }
 
-void AxisPlanner::addState(const Layer& layer, const Candidate& candidate) {
-    State state{.rotary_rad = candidate.rotary_rad, .cost = {}, .before = 0, .alive = true, .branch = candidate.branch};
-    if (layers_.empty()) {
-        if (last_)
-            state.cost = stepCost(layer, {.rotary_rad = *last_, .branch = last_branch_}, candidate);
-        else
-            for (const double angle : candidate.rotary_rad)
-                state.cost.start_nrad += std::isnan(angle) ? 0 : nano(std::abs(angle));
-        states_.push_back(state);
-        return;
-    }
-    const Layer& before = layers_.back();
-    bool found = false;
-    for (std::size_t i = 0; i < before.count; ++i) {
-        const State& from = states_[before.first + i];
+AxisPlanner::Frontier AxisPlanner::reached(const Layer& layer, const Candidate& candidate) const {
+    Frontier best{.state = {.rotary_rad = candidate.rotary_rad, .before = 0, .branch = candidate.branch},
+                  .cost = {},
+                  .alive = false};
+    for (std::size_t i = 0; i < frontier_.size(); ++i) {
+        const Frontier& from = frontier_[i];
         if (!from.alive) continue;
         // At the pole only the states with this very angle lead here: the first axis keeps still.
-        if (layer.solved.pole && from.rotary_rad[0] != candidate.rotary_rad[0] &&
-            !(std::isnan(from.rotary_rad[0]) && std::isnan(candidate.rotary_rad[0])))
+        if (layer.pole && from.state.rotary_rad[0] != candidate.rotary_rad[0] &&
+            !(std::isnan(from.state.rotary_rad[0]) && std::isnan(candidate.rotary_rad[0])))
             continue;
-        Cost cost = stepCost(layer, from, candidate);
+        // Whatever the way, it takes the time of the turn.
+        if (best.alive && from.cost.time_ns + nano(turnTime(from.state, candidate)) > best.cost.time_ns) continue;
+        Cost cost = stepCost(layer, from.state, candidate);
         cost.time_ns += from.cost.time_ns;
         cost.travel_nrad += from.cost.travel_nrad;
         cost.start_nrad += from.cost.start_nrad;
-        if (found && !(cost < state.cost)) continue;
-        found = true;
-        state.cost = cost;
-        state.before = static_cast<std::uint32_t>(i);
+        if (best.alive && !(cost < best.cost)) continue;
+        best.alive = true;
+        best.cost = cost;
+        best.state.before = static_cast<std::uint32_t>(i);
     }
-    state.alive = found;
-    states_.push_back(state);
+    return best;
+}
+
+void AxisPlanner::addState(const Layer& layer, const Candidate& candidate) {
+    if (!layers_.empty()) {
+        reached_.push_back(reached(layer, candidate));
+        return;
+    }
+    Frontier first{.state = {.rotary_rad = candidate.rotary_rad, .before = 0, .branch = candidate.branch}, .cost = {}};
+    if (last_)
+        first.cost = stepCost(layer, {.rotary_rad = *last_, .before = 0, .branch = last_branch_}, candidate);
+    else
+        for (const double angle : candidate.rotary_rad)
+            first.cost.start_nrad += std::isnan(angle) ? 0 : nano(std::abs(angle));
+    reached_.push_back(first);
 }
 
 void AxisPlanner::push(const AxisPoint& point) {
+    const AxisSolutions solved = machine_.solveAxis(point.axis, options_.pole_tolerance_rad);
     Layer layer;
-    layer.solved = machine_.solveAxis(point.axis, options_.pole_tolerance_rad);
+    layer.miss_rad = solved.miss_rad;
+    layer.pole = solved.pole;
     layer.first = states_.size();
     layer.line = point.line;
     layer.cutting = point.cutting;
-    follow(layer, point.axis);
-    gatherCandidates(layer);
+    follow(layer, solved, point.axis);
+    gatherCandidates(solved);
     if (candidates_.empty()) {
         layer.within_limits = false;
-        gatherNearest(layer);
+        gatherNearest(solved);
     }
+    reached_.clear();
     for (const Candidate& candidate : candidates_) addState(layer, candidate);
-    layer.count = states_.size() - layer.first;
+    frontier_.swap(reached_);
+    for (const Frontier& state : frontier_) states_.push_back(state.state);
+    layer.count = frontier_.size();
     layers_.push_back(layer);
     if (layers_.size() >= options_.window_points) commit(layers_.size() / 2);
 }
@@ -176,12 +193,10 @@ bool AxisPlanner::pop(PlannedAxes& out) {
 }
 
 std::vector<std::uint32_t> AxisPlanner::traceBack() const {
-    const Layer& last = layers_.back();
     std::uint32_t best = 0;
-    for (std::uint32_t i = 0; i < last.count; ++i) {
-        const State& state = states_[last.first + i];
-        const State& leader = states_[last.first + best];
-        if (state.alive && (!leader.alive || state.cost < leader.cost)) best = i;
+    for (std::uint32_t i = 0; i < frontier_.size(); ++i) {
+        const Frontier& leader = frontier_[best];
+        if (frontier_[i].alive && (!leader.alive || frontier_[i].cost < leader.cost)) best = i;
     }
     std::vector<std::uint32_t> chosen(layers_.size());
     for (std::size_t l = layers_.size(); l-- > 0;) {
@@ -191,8 +206,6 @@ std::vector<std::uint32_t> AxisPlanner::traceBack() const {
     return chosen;
 }
 
-/// A path that begins at the pole takes its first angle from its first point off it, which is then decided as well. With
-/// no such point in the window, the angle is the one nearest to zero.
 std::size_t AxisPlanner::settleFreeAngle(std::vector<std::uint32_t>& chosen, std::size_t layer_count) {
     const auto first_angle = [&](std::size_t l) -> double& {
         return states_[layers_[l].first + chosen[l]].rotary_rad[0];
@@ -202,12 +215,14 @@ std::size_t AxisPlanner::settleFreeAngle(std::vector<std::uint32_t>& chosen, std
     if (bound == 0) return layer_count;
     if (bound < layers_.size()) {
         for (std::size_t l = 0; l < bound; ++l) first_angle(l) = first_angle(bound);
+        settleFrontier();
         return std::max(layer_count, bound + 1);
     }
     const AxisRange& range = machine_.rotaryRange(0);
     const double angle = range.endless ? 0.0 : std::clamp(0.0, range.min, range.max);
     for (State& state : states_)
         if (std::isnan(state.rotary_rad[0])) state.rotary_rad[0] = angle;
+    settleFrontier();
     return layer_count;
 }
 
@@ -218,28 +233,36 @@ void AxisPlanner::commit(std::size_t layer_count) {
     dropFront(layer_count, chosen[layer_count - 1]);
 }
 
+/// The states of the last layer are kept twice.
+void AxisPlanner::settleFrontier() {
+    for (std::size_t i = 0; i < frontier_.size(); ++i) frontier_[i].state = states_[layers_.back().first + i];
+}
+
 void AxisPlanner::dropFront(std::size_t layer_count, std::uint32_t chosen) {
     if (layer_count == layers_.size()) {
         layers_.clear();
         states_.clear();
+        frontier_.clear();
         return;
     }
     // What does not descend from the last point handed out would break the path, however cheap it is.
-    const std::size_t first_kept = layers_[layer_count].first;
-    for (std::size_t l = layer_count; l < layers_.size(); ++l)
-        for (std::size_t i = 0; i < layers_[l].count; ++i) {
-            State& state = states_[layers_[l].first + i];
-            state.alive = state.alive && (l == layer_count ? state.before == chosen
-                                                           : states_[layers_[l - 1].first + state.before].alive);
-        }
-    // Costs count from here on, so that they stay far from overflow on paths of any length.
-    const Cost spent = states_[layers_[layer_count - 1].first + chosen].cost;
-    for (std::size_t i = 0; i < layers_.back().count; ++i) {
-        Cost& cost = states_[layers_.back().first + i].cost;
-        cost.time_ns -= spent.time_ns;
-        cost.travel_nrad -= spent.travel_nrad;
-        cost.start_nrad -= spent.start_nrad;
+    for (std::uint32_t i = 0; i < frontier_.size(); ++i) {
+        std::uint32_t ancestor = i;
+        for (std::size_t l = layers_.size(); l-- > layer_count;) ancestor = states_[layers_[l].first + ancestor].before;
+        frontier_[i].alive = frontier_[i].alive && ancestor == chosen;
     }
+    // Costs count from here on, so that they stay far from overflow on paths of any length.
+    const auto cheapest =
+        std::min_element(frontier_.begin(), frontier_.end(), [](const Frontier& a, const Frontier& b) {
+            return a.alive != b.alive ? a.alive : a.cost < b.cost;
+        });
+    const Cost spent = cheapest->cost;
+    for (Frontier& state : frontier_) {
+        state.cost.time_ns -= spent.time_ns;
+        state.cost.travel_nrad -= spent.travel_nrad;
+        state.cost.start_nrad -= spent.start_nrad;
+    }
+    const std::size_t first_kept = layers_[layer_count].first;
     states_.erase(states_.begin(), states_.begin() + static_cast<std::ptrdiff_t>(first_kept));
     layers_.erase(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(layer_count));
     for (Layer& layer : layers_) layer.first -= first_kept;

@@ -70,7 +70,8 @@ AxisSolutions Machine::solveTwo(const Vector3& axis, double pole_tolerance_rad) 
     const double across = std::sqrt(u1 * u1 + u2 * u2);
     const double along = axis.dot(rotary_direction_[0]);
     const double theta = std::atan2(across, along);
-    out.miss_rad = std::max({0.0, theta_min_ - theta, theta - theta_max_});
+    out.gap_rad = std::min(theta - theta_min_, theta_max_ - theta);
+    out.miss_rad = std::max(0.0, -out.gap_rad);
     out.pole = across <= pole_tolerance_rad && (along > 0.0 ? theta_min_ : pi - theta_max_) <= pole_tolerance_rad;
     if (out.pole) {
         out.count = 1;

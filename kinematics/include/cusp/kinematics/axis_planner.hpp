@@ -110,19 +110,24 @@ private:
         std::int64_t start_nrad = 0;
         auto operator<=>(const Cost&) const = default;
     };
+    /// What is kept of a state until its point is handed out.
     struct State {
         RotaryValues rotary_rad{};
-        Cost cost{};
         std::uint32_t before = 0;  ///< index within the layer before
-        bool alive = true;         ///< descends from what was already handed out
         std::uint8_t branch = 0;
+    };
+    /// What the next point is compared with: the last layer alone needs it.
+    struct Frontier {
+        State state;
+        Cost cost{};
+        bool alive = true;  ///< descends from what was already handed out
     };
     struct Candidate {
         RotaryValues rotary_rad{};
         std::uint8_t branch = 0;
     };
     struct Layer {
-        AxisSolutions solved;
+        double miss_rad = 0.0;
         /// From the layer before: what each branch turns by along the great circle, and whether that circle passes where
         /// the branches meet, so that both are one.
         std::array<RotaryValues, 2> follow{};
@@ -132,15 +137,19 @@ private:
         std::size_t count = 0;
         std::uint32_t line = 0;
         bool cutting = true;
+        bool pole = false;
         bool within_limits = true;
     };
 
-    void gatherCandidates(const Layer& layer);
-    void gatherNearest(const Layer& layer);
-    void gatherAtPole(const Layer& layer);
+    void gatherCandidates(const AxisSolutions& solved);
+    void gatherNearest(const AxisSolutions& solved);
+    void gatherAtPole(const AxisSolutions& solved);
     void addWindings(std::size_t axis, double angle_rad);
     void addState(const Layer& layer, const Candidate& candidate);
-    void follow(Layer& layer, const Vector3& axis);
+    /// The cheapest way from the layer before to a candidate.
+    [[nodiscard]] Frontier reached(const Layer& layer, const Candidate& candidate) const;
+    void follow(Layer& layer, const AxisSolutions& solved, const Vector3& axis);
+    [[nodiscard]] double turnTime(const State& from, const Candidate& to) const;
     [[nodiscard]] Cost stepCost(const Layer& layer, const State& from, const Candidate& to) const;
     enum class Way : std::uint8_t { Followed, ThroughCone, Rewind };
     [[nodiscard]] Way wayOf(const Layer& layer, const State& from, const Candidate& to) const;
@@ -151,6 +160,7 @@ private:
     [[nodiscard]] std::size_t settleFreeAngle(std::vector<std::uint32_t>& chosen, std::size_t layer_count);
     void handOut(const Layer& layer, const State& chosen);
     void reportProblems(const Layer& layer, const RotaryValues& before, const PlannedAxes& out);
+    void settleFrontier();
     void dropFront(std::size_t layer_count, std::uint32_t chosen);
 
     const Machine& machine_;
@@ -158,6 +168,8 @@ private:
     RotaryValues seconds_per_rad_{};
     std::vector<Layer> layers_;
     std::vector<State> states_;
+    std::vector<Frontier> frontier_;  ///< the states of the last layer
+    std::vector<Frontier> reached_;   ///< of the layer at hand, swapped with it
     std::vector<Candidate> candidates_;
     std::array<std::vector<double>, 2> positions_;
     std::optional<RotaryValues> last_;  ///< handed out last, with endless axes unwrapped

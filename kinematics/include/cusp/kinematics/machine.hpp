@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,7 @@ struct AxisSolutions {
     /// β is continuous, in [−π, 0], and α turns by less than half a turn along any great circle shorter than that.
     double alpha_rad = 0.0;
     double beta_rad = 0.0;
+    double gap_rad = std::numeric_limits<double>::infinity();  ///< as `branchGap`, with two rotary axes
 };
 
 /// Solutions for a whole pose.
