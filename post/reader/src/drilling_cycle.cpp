@@ -25,6 +25,8 @@ constexpr Signature signatures[] = {{"CYCLE81", 6}, {"CYCLE82", 6},  {"CYCLE83",
 /// Distance kept from the ground of the last peck when the tool comes back at rapid, and lift that breaks a chip.
 constexpr double anticipation = 0.6;
 constexpr double chip_break_lift = 1.0;
+/// Sums of printed heights.
+constexpr double same_plane = 1e-9;
 constexpr std::size_t most_pecks = 10'000;
 
 /// ISO 261, coarse pitches: MPIT names the thread by its diameter.
@@ -57,7 +59,7 @@ public:
         if (hole_.bottom >= hole_.reference)
             return fmt::format("the depth {:g} does not lie below the reference plane {:g}", hole_.bottom,
                                hole_.reference);
-        if (hole_.retract < hole_.start)
+        if (hole_.retract < hole_.start - same_plane)
             return fmt::format("the retract plane {:g} lies below the start {:g}", hole_.retract, hole_.start);
         if (tapping() && name_ != "CYCLE840" && pitch() == 0.0) return "the thread has no pitch";
         if (name_ == "CYCLE86" && at(6) != 3.0 && at(6) != 4.0) return "SDIR is 3 or 4";

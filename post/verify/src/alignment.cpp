@@ -21,12 +21,6 @@ constexpr std::size_t look_ahead = 64;
 /// Ends closer than this are the same printed point.
 constexpr double same_tip_mm = 1e-9;
 constexpr double same_axis_rad = 1e-12;
-/// Rounding of limits between degrees and radians.
-constexpr double limit_slack_rad = 1e-9;
-/// Two turns: no way between two CL points takes more, and nothing is sampled for it.
-constexpr double most_travel_rad = 4.0 * std::numbers::pi;
-/// Printed rotary values differ from the exact ones; far below any wrong branch away from the pole.
-constexpr double branch_slack_rad = base::radFromDeg(0.1);
 
 bool isRapid(const ExecutedMotion& motion) { return motion.code == MotionCode::Rapid; }
 
@@ -155,6 +149,7 @@ bool Alignment::passPointAlreadyMet() {
         return false;
     ++report_.matched;
     ++next_;
+    skipped_from_.reset();
     fraction_ = 0.0;
     return true;
 }
@@ -165,6 +160,7 @@ void Alignment::passPointsAlreadyMet() {
 bool Alignment::onTheWay(const ExecutedMotion& motion) {
     if (done() || next_ == 0 || (!at_ && expected_->points[next_].opens)) return false;
     auto fraction = nextMove().fractionOf(*motion.end_pose, tolerance_);
+    if (!fraction && leavesOut(motion)) fraction = nextMove().fractionOf(*motion.end_pose, tolerance_);
     const bool detour = !fraction;
     if (detour) fraction = besideTheWay(motion);
     const ExpectedCycle* hole = nextHole();
@@ -195,6 +191,18 @@ bool Alignment::onTheWay(const ExecutedMotion& motion) {
         checkProcess(motion, expected_->processes[point.process], point.line, process_limits_, findings_);
     fraction_ = *fraction;
     at_ = motion.end_pose;
+    return true;
+}
+
+/// A point the program may leave out: on the way to the one behind it.
+bool Alignment::leavesOut(const ExecutedMotion& motion) {
+    const auto& points = expected_->points;
+    if (held_ || !at_ || !isRapid(motion) || !points[next_].optional || fraction_ > 0.0) return false;
+    if (next_ + 1 >= points.size() || !points[next_ + 1].rapid) return false;
+    const double axis_rad = motion.joint_linear ? std::numbers::pi : tolerance_.axis_rad;
+    const ExpectedMove beyond{*at_, points[next_ + 1].pose, nullptr};
+    if (!beyond.fractionOf(*motion.end_pose, {tolerance_.tip_mm, axis_rad})) return false;
+    drop(next_ + 1);
     return true;
 }
 
@@ -237,6 +245,7 @@ void Alignment::meet(const ExecutedMotion& motion, std::size_t index) {
     if (!isRapid(motion))
         checkProcess(motion, expected_->processes[point.process], point.line, process_limits_, findings_);
     next_ = index + 1;
+    skipped_from_.reset();
     fraction_ = 0.0;
     hole_ = {};
     at_ = motion.end_pose;
@@ -262,8 +271,13 @@ void Alignment::displaced(const Held& held) {
     ++report_.missed;
     raise(report_.max_tip_error_mm, error.tip_mm, held.place, point.line);
     raise(report_.max_axis_error_rad, error.axis_rad, held.place, point.line);
-    findings_.error("verify.displaced", held.place, distanceText(error, tolerance_, point.line));
+    if (point.lifts)
+        findings_.error("verify.low-approach", held.place,
+                        fmt::format("goes across to the hole of CL line {} below its retract plane", point.line));
+    else
+        findings_.error("verify.displaced", held.place, distanceText(error, tolerance_, point.line));
     ++next_;
+    skipped_from_.reset();
     fraction_ = 0.0;
     at_.reset();
     held_.reset();
@@ -280,15 +294,20 @@ void Alignment::drop(std::size_t until) {
             continue;
         }
         ++report_.missed;
-        findings_.missing("verify.missed",
-                          fmt::format("CL line {}: no block ends at this point", expected_->points[next_].line));
+        const ExpectedPoint& point = expected_->points[next_];
+        if (point.lifts)
+            findings_.missing("verify.low-approach",
+                              fmt::format("CL line {}: the hole is reached from below its retract plane", point.line));
+        else
+            findings_.missing("verify.missed", fmt::format("CL line {}: no block ends at this point", point.line));
     }
     if (!only_optional) at_.reset();
+    skipped_from_ = only_optional ? at_ : std::nullopt;
 }
 
 ExpectedMove Alignment::nextMove() const {
     const ExpectedPoint& point = expected_->points[next_];
-    ExpectedMove move{expected_->points[next_ - 1].pose, point.pose, nullptr};
+    ExpectedMove move{skipped_from_.value_or(expected_->points[next_ - 1].pose), point.pose, nullptr};
     if (point.arc == none) return move;
     move.arc = &expected_->arcs[point.arc];
     move.from.tip_mm = move.arc->start_mm;
@@ -304,58 +323,6 @@ void Alignment::checkKind(const ExecutedMotion& motion, const ExpectedPoint& poi
     // The first point of an operation is reached from a home position the CL file knows nothing of.
     if (point.opens && !at_) return findings_.warning("verify.approach", motion.place, text);
     findings_.error("verify.kind", motion.place, text);
-}
-
-void Alignment::checkBetween(const ExecutedMotion& motion, double to) {
-    // A block behind one that leads nowhere comes from off the path; that one is named.
-    if (next_ == 0 || !at_ || !motion.start_pose || !difference(*motion.start_pose, *at_).within(tolerance_)) return;
-    if (reader::rotaryTravel(motion) > most_travel_rad) return;
-    const ExpectedPoint& point = expected_->points[next_];
-    const PoseError stray = strayBetween(motion, chain_, nextMove(), fraction_, to);
-    const bool rapid = isRapid(motion);
-    raise(rapid ? report_.max_tip_between_rapid_mm : report_.max_tip_between_mm, stray.tip_mm, motion.place,
-          point.line);
-    raise(rapid ? report_.max_axis_between_rapid_rad : report_.max_axis_between_rad, stray.axis_rad, motion.place,
-          point.line);
-    if (stray.tip_mm > options_.between_tip_tolerance_mm)
-        findings_.error(
-            "verify.between-tip", motion.place,
-            fmt::format("between its ends the tip is up to {:.3g} mm off the move to CL line {}, tolerance {:.3g} mm",
-                        stray.tip_mm, point.line, options_.between_tip_tolerance_mm));
-    if (!rapid && options_.between_axis_tolerance_rad && stray.axis_rad > *options_.between_axis_tolerance_rad)
-        findings_.error(
-            "verify.between-axis", motion.place,
-            fmt::format("between its ends the tool axis is up to {:.3g}° off the move to CL line {}, tolerance {:.3g}°",
-                        base::degFromRad(stray.axis_rad), point.line,
-                        base::degFromRad(*options_.between_axis_tolerance_rad)));
-}
-
-/// A wrong branch or winding is right at every block end: only the way between shows it. Rotary axes that run linearly
-/// between two ends on the same branch leave the great circle by at most half the angle between the ends, the pole
-/// included (C sweeping by 2φ at tilt a: a·(1 − cos φ) against an angle of 2·a·sin φ); on the wrong one by far more.
-void Alignment::checkTurns(const ExecutedMotion& motion, std::size_t cl_line) {
-    if (!motion.start_pose || !at_) return;
-    const double travel = reader::rotaryTravel(motion);
-    if (travel > most_travel_rad)
-        return findings_.error(
-            "verify.winding", motion.place,
-            fmt::format("a rotary axis turns {:.4g}° on the way to CL line {}", base::degFromRad(travel), cl_line));
-    const double turn = reader::angleBetween(motion.start_pose->axis, motion.end_pose->axis);
-    if (travel <= 2.0 * turn + branch_slack_rad) return;
-    ExecutedMotion linear = motion;
-    linear.orientation_path = reader::OrientationPath::RotaryLinear;
-    const PoseError stray = strayBetween(linear, chain_, {*motion.start_pose, *motion.end_pose}, 0.0, 1.0);
-    if (stray.axis_rad <= turn + branch_slack_rad && travel <= std::numbers::pi + limit_slack_rad) return;
-    const std::string text = fmt::format(
-        "the rotary axes go the long way round in this {} to CL line {}: one turns {:.4g}°, the tool axis swings {:.3g}° "
-        "off a way of {:.3g}°",
-        isRapid(motion) ? "rapid" : "feed move", cl_line, base::degFromRad(travel), base::degFromRad(stray.axis_rad),
-        base::degFromRad(turn));
-    // In a rapid, a change of branch on the way to the next cut may be meant.
-    if (!isRapid(motion) && (stray.axis_rad > options_.pole_cone_rad || travel > std::numbers::pi + limit_slack_rad))
-        findings_.error("verify.winding", motion.place, text);
-    else
-        findings_.warning("verify.winding", motion.place, text);
 }
 
 void Alignment::finish() {

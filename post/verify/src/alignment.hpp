@@ -59,6 +59,7 @@ private:
     [[nodiscard]] bool meetsNext(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool onTheWay(const reader::ExecutedMotion& motion);
     [[nodiscard]] std::optional<double> besideTheWay(const reader::ExecutedMotion& motion) const;
+    [[nodiscard]] bool leavesOut(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool meetsLater(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool beginsExcursion(const reader::ExecutedMotion& motion);
     [[nodiscard]] bool continuesExcursion(const reader::ExecutedMotion& motion);
@@ -91,6 +92,8 @@ private:
     Findings findings_;
 
     std::size_t next_ = 0;
+    std::optional<reader::ToolPose>
+        skipped_from_;       ///< the point before was optional and left out: the path comes from here
     double fraction_ = 0.0;  ///< how far the path has come from point next_−1 to next_
     HoleProgress hole_;
     std::optional<double> dwelt_s_;       ///< since the last motion

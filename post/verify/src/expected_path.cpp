@@ -78,8 +78,10 @@ public:
         const reader::ToolPose at = toReader(hole.location);
         const auto above = [&](double height) { return reader::ToolPose{at.tip_mm + height * at.axis, at.axis}; };
         const ExpectedCycle& cycle = out_.cycles.back();
-        const double retract = cycle_.retract_mm.value_or(cycle.approach_mm);
+        // A tool never leaves a hole below where it went in at feed.
+        const double retract = std::max(cycle_.retract_mm.value_or(cycle.approach_mm), cycle.approach_mm);
         using Kind = toolpath::CycleStart::Kind;
+        goAbove(above(retract));
         add(above(retract), true).optional = true;
         add(above(cycle.approach_mm), true).optional = !cycle_.clearance_mm;
         add(above(-cycle.depth_mm), false).cycle = static_cast<std::uint32_t>(out_.cycles.size() - 1);
@@ -130,6 +132,33 @@ public:
     std::uint32_t line = 0;
 
 private:
+    /// To a hole the tool goes across at the greater of two heights: where it is and the hole's retract plane. Below it
+    /// would be a rapid through whatever stands there: so first up along the tool axis, or, where that lies flat against
+    /// the hole's, by way of home. From above it may come down on the way, or over the hole.
+    void goAbove(const reader::ToolPose& above) {
+        constexpr double noticeable_mm = 1e-4;
+        constexpr double asked_for_mm = 0.01;
+        constexpr double least_slope = 0.5;
+        if (opens_ || out_.points.empty()) return;
+        const reader::Vector3 way = above.tip_mm - tip_mm_;
+        const double rise_mm = reader::dot(way, above.axis);
+        const double across_mm = reader::norm(way - rise_mm * above.axis);
+        if (std::abs(rise_mm) <= noticeable_mm || across_mm <= noticeable_mm) return;
+        if (rise_mm < 0.0) {
+            add({above.tip_mm - rise_mm * above.axis, above.axis}, true).optional = true;
+            return;
+        }
+        const reader::Vector3 axis = out_.points.back().pose.axis;
+        const double slope = reader::dot(axis, above.axis);
+        if (slope < least_slope) {
+            opens_ = true;
+            return;
+        }
+        ExpectedPoint& up = add({tip_mm_ + (rise_mm / slope) * axis, axis}, true);
+        up.lifts = true;
+        up.optional = rise_mm < asked_for_mm || across_mm < asked_for_mm;
+    }
+
     void reverseSpindle() {
         using Turn = toolpath::SpindleCommand::Turn;
         if (!process_.turn || *process_.turn == Turn::Off) return;

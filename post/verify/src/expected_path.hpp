@@ -64,6 +64,7 @@ struct ExpectedPoint {
     std::uint32_t cycle = none;  ///< index into `ExpectedPath::cycles`: this is the bottom of a hole
     bool leaves_hole = false;    ///< the way to this point begins at the bottom of a hole
     bool optional = false;       ///< a program may leave it out: a height the cycle passes on its way
+    bool lifts = false;          ///< up to the retract plane of the next hole, before going across to it
     bool opens = false;          ///< first of an operation or after a tool call or stop: the program may link before it
 };
 

@@ -56,9 +56,11 @@ std::string holeCycleCall(const HoleCycle& cycle, int decimals) {
             // DTB, then the feeds in and out.
             return call("CYCLE85", cycle, decimals, {cycle.dwell_s, feedPerMinute(cycle), feedPerMinute(cycle)});
         case Kind::Tap:
-            // DTB, SDAC 5 (spindle stops behind the cycle), MPIT left out, PIT, POSS, SST and SST1: speeds in and out.
+            // DTB, SDAC (behind the cycle the spindle turns on as before: M3 or M4), MPIT left out, PIT (below 0: left-hand),
+            // POSS, SST and SST1: speeds in and out.
             return call("CYCLE84", cycle, decimals,
-                        {cycle.dwell_s, 5.0, std::nullopt, cycle.pitch_mm, 0.0, cycle.speed_rpm, cycle.speed_rpm});
+                        {cycle.dwell_s, cycle.pitch_mm < 0.0 ? 4.0 : 3.0, std::nullopt, cycle.pitch_mm, 0.0,
+                         cycle.speed_rpm, cycle.speed_rpm});
     }
     return {};
 }

@@ -59,11 +59,9 @@ void ProgramPlanner::State::take(const toolpath::HoleLocation& hole) {
     const double height_mm = std::max(retract_mm, cycle->clearance_mm.value_or(0.0));
     ToolPose above = to;
     above.tip_mm += height_mm * to.axis;
-    log.motion(above.tip_mm, MotionKind::Rapid, cutting ? (above.tip_mm - last_tip).norm() : 0.0, {},
-               process.spindle.speed_rpm);
+    if (cutting) goAbove(above);
+    logRapid(above.tip_mm);
     log.hole(to.tip_mm - cycle->depth_mm * to.axis, process.spindle.speed_rpm);
-    if (cutting) tellLowApproach(above);
-    last_tip = above.tip_mm;
     if (!cutting) reachPart(above, MotionKind::Rapid, {});
     const auto frame = way.programmedFrame(to);
     if (!frame) return;
@@ -78,17 +76,31 @@ void ProgramPlanner::State::take(const toolpath::HoleLocation& hole) {
 }
 
 /// A cycle called modally goes to the place of the hole at the height where the tool is, and only there up to its planes.
-void ProgramPlanner::State::tellLowApproach(const ToolPose& above) {
+/// So the tool first goes up along its axis to the retract plane, by way of home where its axis lies too flat for that; and
+/// where the axis turns, it turns above the hole and not in the cycle, which would not keep the tip on its way.
+void ProgramPlanner::State::goAbove(const ToolPose& above) {
+    constexpr double noticeable_mm = 0.001;
+    constexpr double least_slope = 0.5;
     const double rise_mm = (above.tip_mm - last_tip).dot(above.axis);
     const double across_mm = (above.tip_mm - last_tip - rise_mm * above.axis).norm();
-    constexpr double noticeable_mm = 0.001;
-    if (rise_mm <= noticeable_mm || across_mm <= noticeable_mm) return;
-    report.warning(
-        "post.low-approach",
-        fmt::format("the tool goes {:.4g} mm across to the hole at CL line {} while it is {:.4g} mm below the "
-                    "hole's retract plane: look what stands in its way, or lift it in the CL file before",
-                    across_mm, line, rise_mm),
-        here());
+    if (rise_mm > noticeable_mm && across_mm > noticeable_mm) {
+        ToolPose up = way.at();
+        const double slope = up.axis.dot(above.axis);
+        if (slope < least_slope || compensation_told != CutterCompensation::Side::Off) return leavePart();
+        endHoleCycle();
+        up.tip_mm += rise_mm / slope * up.axis;
+        up.line = line;
+        way.moveTo(up, MotionKind::Rapid, {}, true);
+        logRapid(up.tip_mm);
+    }
+    if (way.at().rotary_rad == above.rotary_rad) return;
+    endHoleCycle();
+    way.moveTo(above, MotionKind::Rapid, {}, !planned.rewind && !planned.in_pole_cone);
+}
+
+void ProgramPlanner::State::logRapid(const Vector3& tip_mm) {
+    log.motion(tip_mm, MotionKind::Rapid, cutting ? (tip_mm - last_tip).norm() : 0.0, {}, process.spindle.speed_rpm);
+    last_tip = tip_mm;
 }
 
 void ProgramPlanner::State::beginMotion(const toolpath::CutterLocation& location, bool cut, bool hole) {

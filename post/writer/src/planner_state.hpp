@@ -74,7 +74,8 @@ struct ProgramPlanner::State {
     void take(const toolpath::LinearMotion& motion);
     void take(const toolpath::ArcMotion& arc);
     void take(const toolpath::HoleLocation& hole);
-    void tellLowApproach(const ToolPose& above);
+    void goAbove(const ToolPose& above);
+    void logRapid(const geometry::Vector3& tip_mm);
     void beginMotion(const toolpath::CutterLocation& location, bool cut, bool hole);
     [[nodiscard]] ToolPose poseAt(const toolpath::CutterLocation& location) const;
     [[nodiscard]] std::optional<geometry::RigidTransform> planeFor(const ToolPose& pose, bool hole);

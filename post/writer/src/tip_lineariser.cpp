@@ -86,7 +86,8 @@ bool TipLineariser::follows(const RotaryValues& from, const RotaryValues& to) co
 }
 
 /// Half way along the great circle, on the side where the ends are. Where the rotary axes do not follow one, half way
-/// between them.
+/// between them; so too at a pole, where a turn of the first axis hardly moves the tool axis and the circle gives it no
+/// way to turn: only between the positions of its ends can that turn be divided.
 RotaryValues TipLineariser::between(const Node& from, const Node& to) const {
     const RotaryValues middle = mean(from.rotary_rad, to.rotary_rad);
     if (!follows_) return middle;
@@ -104,15 +105,22 @@ RotaryValues TipLineariser::between(const Node& from, const Node& to) const {
         least = away;
         nearest = candidate;
     }
+    constexpr double uneven = 0.25;
+    const double turn =
+        std::abs(to.rotary_rad[0] - from.rotary_rad[0]) + std::abs(to.rotary_rad[1] - from.rotary_rad[1]);
+    if (least > uneven * turn && linearTurnKeepsAxis(from, to)) return middle;
     return nearest;
+}
+
+bool TipLineariser::linearTurnKeepsAxis(const Node& from, const Node& to) const {
+    return kinematics::linearTurnDeviation(machine_, from.rotary_rad, to.rotary_rad) <=
+           options_.orientation_tolerance_rad;
 }
 
 void TipLineariser::divide(const Node& from, const Node& to, int depth) {
     if (failed_) return;
     const double bound = axes_.chordError(from.stop.at, to.stop.at) + axes_.printError();
-    const bool axis_kept =
-        refined_ || !follows_ ||
-        kinematics::linearTurnDeviation(machine_, from.rotary_rad, to.rotary_rad) <= options_.orientation_tolerance_rad;
+    const bool axis_kept = refined_ || !follows_ || linearTurnKeepsAxis(from, to);
     if ((bound <= options_.tolerance_mm && axis_kept) || depth == deepest || out_.size() >= options_.max_inserted) {
         worst_mm_ = std::max(worst_mm_, bound);
         return;

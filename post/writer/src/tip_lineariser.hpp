@@ -60,6 +60,7 @@ private:
     [[nodiscard]] bool place(Node& node) const;
     [[nodiscard]] bool follows(const kinematics::RotaryValues& from, const kinematics::RotaryValues& to) const;
     [[nodiscard]] kinematics::RotaryValues between(const Node& from, const Node& to) const;
+    [[nodiscard]] bool linearTurnKeepsAxis(const Node& from, const Node& to) const;
     void divide(const Node& from, const Node& to, int depth);
 
     const kinematics::Machine& machine_;

@@ -51,6 +51,7 @@ public:
     double arcTo(const toolpath::ArcMotion& arc, const ToolPose& to, const toolpath::FeedRate& feed);
     /// The tool got there by a way of its own (a cycle).
     void standAt(const ToolPose& pose);
+    [[nodiscard]] const ToolPose& at() const { return at_; }
 
     /// The frame that points are programmed in while the rotary axes stand there; empty, and reported, where the linear axes
     /// cannot bring the tip anywhere.

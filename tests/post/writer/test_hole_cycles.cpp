@@ -55,12 +55,12 @@ TEST(HoleCycles, Boring) { EXPECT_EQ(callFor(cycleOf(Kind::Bore)), "CYCLE85(7,5,
 
 TEST(HoleCycles, TappingTakesItsPitchFromFeedAndSpeed) {
     // 200 mm/min at 500 rev/min is 0.4 mm per revolution.
-    EXPECT_EQ(callFor(cycleOf(Kind::Tap)), "CYCLE84(7,5,2,,20,0,5,,0.4,0,500,500)");
+    EXPECT_EQ(callFor(cycleOf(Kind::Tap)), "CYCLE84(7,5,2,,20,0,3,,0.4,0,500,500)");
     const Spindle left{toolpath::SpindleCommand::Turn::CounterClockwise, 500.0};
-    EXPECT_EQ(callFor(cycleOf(Kind::Tap), 5.0, left), "CYCLE84(7,5,2,,20,0,5,,-0.4,0,500,500)");
+    EXPECT_EQ(callFor(cycleOf(Kind::Tap), 5.0, left), "CYCLE84(7,5,2,,20,0,4,,-0.4,0,500,500)");
     CycleStart per_rev = cycleOf(Kind::Tap);
     per_rev.feed = FeedRate{1.5, FeedRate::Unit::MmPerRev};
-    EXPECT_EQ(callFor(per_rev), "CYCLE84(7,5,2,,20,0,5,,1.5,0,500,500)");
+    EXPECT_EQ(callFor(per_rev), "CYCLE84(7,5,2,,20,0,3,,1.5,0,500,500)");
     EXPECT_EQ(callFor(cycleOf(Kind::Tap), 5.0, Spindle{}),
               "tapping with the spindle off: there is no SPINDL before it");
 }

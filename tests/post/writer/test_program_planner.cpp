@@ -132,20 +132,52 @@ TEST_F(Planner, ArcsAndHoles) {
               "move rapid X0.0000 Y0.0000 Z50.0000 C0.0000 A0.0000\n");
 }
 
-TEST_F(Planner, AHoleReachedFromBelowItsRetractPlaneIsTold) {
-    const std::string start = "UNITS/MM\nCUTTER/6,0,3,0,0,0,50\nLOADTL/4\nSPINDL/500,RPM,CLW\nRAPID\nGOTO/0,0,20\n"
+TEST_F(Planner, AHoleReachedFromBelowItsRetractPlaneIsReachedFromAbove) {
+    const std::string start = "UNITS/MM\nCUTTER/6,0,3,0,0,0,50\nLOADTL/4\nSPINDL/500,RPM,CLW\nRAPID\nGOTO/0,0,2\n"
                               "CYCLE/DRILL,15,MMPM,300,2\nGOTO/5,5,1\n";
-    plan(start + "GOTO/9,8,11\nCYCLE/OFF\nFINI\n");
-    EXPECT_EQ(
-        base::toText(report),
-        "part.cls:9: warning: the tool goes 5 mm across to the hole at CL line 9 while it is 10 mm below the hole's "
-        "retract plane: look what stands in its way, or lift it in the CL file before [post.low-approach]\n");
-    report = base::Diagnostics();
-    // Down to a lower one, straight up, or from a lift in the CL file: nothing to tell.
-    plan(start + "GOTO/9,8,0\nCYCLE/OFF\nFINI\n");
-    plan(start + "GOTO/5,5,11\nCYCLE/OFF\nFINI\n");
-    plan(start + "CYCLE/OFF\nRAPID\nGOTO/5,5,13\nCYCLE/DRILL,15,MMPM,300,2\nGOTO/9,8,11\nCYCLE/OFF\nFINI\n");
-    EXPECT_TRUE(report.empty()) << base::toText(report);
+    const auto holes = [&](const std::string& rest) {
+        const std::string text = plan(start + rest + "FINI\n");
+        EXPECT_TRUE(report.empty()) << base::toText(report);
+        const auto body = text.find("approach");
+        return text.substr(body, text.find("hole-cycle off\ntip-programming off", body) - body);
+    };
+    const std::string cycle_1 =
+        "hole-cycle drill retract Z3.0000 surface Z1.0000 clearance 2.0000 depth 15.0000 dwell 0.000 peck 0.0000 0.0000 "
+        "pitch 0.0000 300.000 mm/min\n";
+    const std::string first = "approach rapid X0.0000 Y0.0000 Z2.0000 C0.0000 A0.0000\n"
+                              "move rapid X0.0000 Y0.0000 Z3.0000 C0.0000 A0.0000\n" +
+                              cycle_1 + "hole X5.0000 Y5.0000 C0.0000 A0.0000\n";
+    const auto cycleAt = [](const char* retract, const char* surface) {
+        return fmt::format("hole-cycle drill retract Z{} surface Z{} clearance 2.0000 depth 15.0000 dwell 0.000 peck "
+                           "0.0000 0.0000 pitch 0.0000 300.000 mm/min\n",
+                           retract, surface);
+    };
+    EXPECT_EQ(holes("GOTO/9,8,11\nCYCLE/OFF\n"),
+              first + "hole-cycle off\nmove rapid X5.0000 Y5.0000 Z13.0000 C0.0000 A0.0000\n" +
+                  cycleAt("13.0000", "11.0000") + "hole X9.0000 Y8.0000 C0.0000 A0.0000\n");
+    // Down to a lower one, or straight up, needs no move of its own.
+    EXPECT_EQ(holes("GOTO/9,8,0\nCYCLE/OFF\n"),
+              first + cycleAt("2.0000", "0.0000") + "hole X9.0000 Y8.0000 C0.0000 A0.0000\n");
+    EXPECT_EQ(holes("GOTO/5,5,11\nCYCLE/OFF\n"),
+              first + cycleAt("13.0000", "11.0000") + "hole X5.0000 Y5.0000 C0.0000 A0.0000\n");
+}
+
+TEST_F(Planner, FromALeaningToolTheHoleIsReachedAlongItsAxisOrByWayOfHome) {
+    const auto above = [&](const char* axis) {
+        const std::string text = plan(std::string("UNITS/MM\nCUTTER/6,0,3,0,0,0,50\nLOADTL/4\nSPINDL/500,RPM,CLW\n"
+                                                  "MULTAX\nFEDRAT/600,MMPM\nGOTO/0,0,0,") +
+                                      axis + "\nCYCLE/DRILL,15,MMPM,300,2\nGOTO/5,5,1,0,0,1\nCYCLE/OFF\nFINI\n");
+        EXPECT_TRUE(report.empty()) << base::toText(report);
+        const auto body = text.find('\n', text.find("approach")) + 1;
+        return text.substr(body, text.find("hole-cycle drill", body) - body);
+    };
+    // 3 mm up are 3.75 mm along (0, −0.6, 0.8).
+    const std::string leaning = above("0,-0.6,0.8");
+    EXPECT_TRUE(leaning.starts_with("move rapid X0.0000 Y-2.2500 Z3.0000 C0.0000 A36.8699\n")) << leaning;
+    EXPECT_TRUE(leaning.ends_with("move rapid X5.0000 Y5.0000 Z3.0000 C0.0000 A0.0000\n")) << leaning;
+    const std::string flat = above("0,-0.98,0.1989975");
+    EXPECT_TRUE(flat.starts_with("tip-programming off\n")) << flat;
+    EXPECT_TRUE(flat.ends_with("approach rapid X5.0000 Y5.0000 Z3.0000 C0.0000 A0.0000\n")) << flat;
 }
 
 TEST_F(Planner, AxisBeyondItsLimitNamesLineValueAndLimit) {

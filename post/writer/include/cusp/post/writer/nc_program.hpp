@@ -143,7 +143,7 @@ struct HoleCycle {
     double dwell_s = 0.0;
     double first_peck_mm = 0.0;
     double peck_mm = 0.0;
-    double pitch_mm = 0.0;  ///< of a tapped thread, > 0 right-hand
+    double pitch_mm = 0.0;  ///< of a tapped thread, > 0 right-hand, < 0 left-hand
     double speed_rpm = 0.0;
     toolpath::FeedRate feed;
 
