@@ -4,6 +4,7 @@
 #include "campaign_world.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cusp::comm::test {
 
@@ -163,7 +164,8 @@ void World::operate() {
             if (receiver_->startLocally(now_s) == Reason::None) executed_.clear();
         }
         if (receiver_->state() == ReceiverState::Running && schedule_.mode == TransferMode::Drip) {
-            for (double spent_s = 0.0; spent_s < operator_step_s; spent_s += schedule_.line_s) {
+            const auto lines = static_cast<int>(std::ceil(operator_step_s / schedule_.line_s));
+            for (int run = 0; run < lines; ++run) {
                 const auto line = host_.runLine();
                 if (line) {
                     executed_ += *line;
