@@ -83,6 +83,7 @@ docs: ## Write the pages made from the schemas (docs/*.md), and the reference of
 	build/release/bin/cusp schema machine-file > docs/machine-file.md
 	build/release/bin/cusp schema setup-file > docs/setup-file.md
 	build/release/bin/cusp schema post-job > docs/post-job.md
+	build/release/bin/cusp schema plan-job > docs/plan-job.md
 	mkdir -p build/docs
 	doxygen docs/Doxyfile
 

@@ -21,6 +21,7 @@ void addEvaluateCommand(CLI::App& app, Action& action);
 void addCapabilityCommand(CLI::App& app, Action& action);
 void addInspectCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);
+void addPlanCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);
 void addTextureCommand(CLI::App& app, Action& action);

@@ -7,6 +7,7 @@
 
 #include <cusp/base/schema_field.hpp>
 #include <cusp/machine/setup_definition.hpp>
+#include <cusp/optimizer/finishing/plan_job.hpp>
 #include <cusp/post/control/control_definition.hpp>
 
 #include <memory>
@@ -44,8 +45,17 @@ std::string setupFilePage() {
         machine::setupSection().describe());
 }
 
+std::string planJobPage() {
+    return base::schemaMarkdown(
+        "Planning jobs",
+        "`cusp plan JOB.toml -o P.apt` reads these. The unit of a number is the end of its key; a key that is not listed here is "
+        "an error. Examples: `examples/benchmark/table2_ga.toml` and `table2_vega.toml`.",
+        finishing::planJobSection().describe());
+}
+
 std::string pageOf(const std::string& name) {
     if (name == "machine-file") return machineFilePage();
+    if (name == "plan-job") return planJobPage();
     return name == "setup-file" ? setupFilePage() : postJobPage();
 }
 
@@ -54,9 +64,9 @@ std::string pageOf(const std::string& name) {
 void addSchemaCommand(CLI::App& app, Action& action) {
     CLI::App* schema = app.add_subcommand("schema", "Prints the documentation page (Markdown) of a file cusp reads.");
     const auto page = std::make_shared<std::string>();
-    schema->add_option("PAGE", *page, "machine-file, setup-file or post-job")
+    schema->add_option("PAGE", *page, "machine-file, setup-file, post-job or plan-job")
         ->required()
-        ->check(CLI::IsMember({"machine-file", "setup-file", "post-job"}));
+        ->check(CLI::IsMember({"machine-file", "setup-file", "post-job", "plan-job"}));
     schema->callback([page, &action] {
         action = [page] {
             say(pageOf(*page));

@@ -23,6 +23,7 @@ ExitCode run(int argc, char** argv) {
         "Exit codes: 0 done, 1 done and it found something, 2 usage, 3 bad input, 4 I/O, 5 internal, 130 interrupted.");
     cusp::cli::Action action;
     addControllerCommand(app, action);
+    addPlanCommand(app, action);
     addPostCommand(app, action);
     addVerifyCommand(app, action);
     addEvaluateCommand(app, action);

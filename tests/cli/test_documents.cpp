@@ -9,7 +9,7 @@ namespace {
 using Documents = CommandLine;
 
 TEST_F(Documents, PagesAreUpToDate) {
-    for (const std::string page : {"machine-file", "setup-file", "post-job"}) {
+    for (const std::string page : {"machine-file", "setup-file", "post-job", "plan-job"}) {
         const auto outcome = run({"schema", page});
         ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
         const auto committed =
