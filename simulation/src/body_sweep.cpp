@@ -74,6 +74,7 @@ void BodySweep::split(const ToolMove& move, const CutterBody& body, double toler
         part.turn_rad_ = turn / parts;
         part.bend_mm_ = bend / (static_cast<double>(parts) * parts);
         part.tolerance_mm_ = tolerance_mm;
+        part.by_ball_ = turn == 0.0 && body.ballRadius() > 0.0;
         const double half = 0.5 * part.turn_rad_;
         extend(part.box_, body, part.tip_, std::cos(half) * axis - std::sin(half) * turned_side);
         extend(part.box_, body, part.tip_ + part.way_, std::cos(half) * axis + std::sin(half) * turned_side);
@@ -88,6 +89,14 @@ BodySweep::Probe BodySweep::probe(const Ray& ray, double s, double t) const {
     const double y1 = ray.at[0] + s * ray.direction[0] - t * local_way_[0];
     const double y2 = ray.at[1] + s * ray.direction[1] - t * local_way_[1];
     const double y3 = ray.at[2] + s * ray.direction[2] - t * local_way_[2];
+    if (turn_rad_ == 0.0) {
+        const double beside = std::sqrt(y1 * y1 + y2 * y2);
+        const CutterBody::Value still = body_->at(beside, y3);
+        const double outward = beside > 1e-12 ? still.by_rho / beside : 0.0;
+        return {still.distance_mm,
+                still.by_z * ray.direction[2] + outward * (y1 * ray.direction[0] + y2 * ray.direction[1]),
+                -still.by_z * local_way_[2] - outward * (y1 * local_way_[0] + y2 * local_way_[1])};
+    }
     // Taylor: the angle is at most 0.05, the first term left out 2e-14.
     const double angle = turn_rad_ * (t - 0.5);
     const double square = angle * angle;
@@ -197,6 +206,71 @@ bool BodySweep::enter(const Ray& ray, double low, double high, double from, doub
         if (here.by_t != 0.0 && t != end) t = search.next(step, vertex);
     }
     return probe(ray, s, t).value <= close_mm;
+}
+
+BodySweep::Capsule BodySweep::capsule(const Ray& ray) const {
+    const double r = body_->ballRadius();
+    const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    };
+    const std::array<double, 3> at{ray.at[0], ray.at[1], ray.at[2] - r};
+    const double way_way = dot(local_way_, local_way_);
+    const double at_way = dot(at, local_way_);
+    const double along_way = dot(ray.direction, local_way_);
+    const double at_along = dot(at, ray.direction);
+    const double at_at = dot(at, at) - r * r;
+    // The cylinder about the way of the centre: |q + s·e|² = r², with the parts of both across the way.
+    const double share = way_way > 0.0 ? 1.0 / way_way : 0.0;
+    const double a = 1.0 - along_way * along_way * share;
+    const double b = at_along - at_way * along_way * share;
+    const double c = at_at - at_way * at_way * share;
+    const double inside = b * b - a * c;
+    if (inside < 0.0) return {};
+    Capsule out;
+    out.hit = true;
+    const double root = std::sqrt(inside);
+    const auto end = [&](double sign, double& s, double& t) {
+        constexpr double along = 1e-9;
+        s = a > along ? (-b + sign * root) / a : 0.0;
+        t = (at_way + s * along_way) * share;
+        if (a > along && way_way > 0.0 && t >= 0.0 && t <= 1.0) return;
+        // Over one of the ends, or along the way: the ball there, or whichever of both comes first.
+        const auto ball = [&](double time) {
+            const double ball_b = at_along - time * along_way;
+            const double ball_c = at_at - 2.0 * time * at_way + time * time * way_way;
+            const double there = ball_b * ball_b - ball_c;
+            return there < 0.0 ? std::numeric_limits<double>::quiet_NaN() : -ball_b + sign * std::sqrt(there);
+        };
+        t = a > along ? (t < 0.0 || way_way == 0.0 ? 0.0 : 1.0) : (along_way * sign > 0.0 ? 1.0 : 0.0);
+        s = ball(t);
+        if (std::isnan(s)) out.hit = false;
+    };
+    end(-1.0, out.entry, out.entry_time);
+    if (out.hit) end(1.0, out.exit, out.exit_time);
+    return out;
+}
+
+bool BodySweep::cutByBall(const Ray& ray, double low, double high, Pieces& out) const {
+    const double r = body_->ballRadius();
+    const auto height = [&](double s, double t) { return ray.at[2] + s * ray.direction[2] - t * local_way_[2]; };
+    const Capsule ball = capsule(ray);
+    const double highest = std::max(height(low, 0.0), height(high, 0.0)) + std::max(0.0, -local_way_[2]);
+    if (highest <= std::min(r, body_->height())) {
+        // Only the ball's lower half is near.
+        const double from = std::max(low, ball.entry);
+        const double to = std::min(high, ball.exit);
+        if (ball.hit && to > from) out.emplace_back(from, to);
+        return true;
+    }
+    if (!ball.hit || body_->height() < r || height(ball.entry, ball.entry_time) > r) return false;
+    // The way in is on the lower half, and so is no other's; the way out is looked for from the far end.
+    if (ball.entry >= high) return true;
+    double exit = -high;
+    double exit_time = ball.exit_time;
+    const Ray back{ray.at, {-ray.direction[0], -ray.direction[1], -ray.direction[2]}};
+    if (!enter(back, -high, -std::max(low, ball.entry), 0.0, 1.0, exit, exit_time)) return true;
+    if (-exit > std::max(low, ball.entry)) out.emplace_back(std::max(low, ball.entry), -exit);
+    return true;
 }
 
 void BodySweep::cut(const Ray& ray, double low, double high, double from, double to, int level, Pieces& out) const {

@@ -43,7 +43,10 @@ public:
         return {{at[0], at[1], at[2]}, {frame_(0, axis), frame_(1, axis), frame_(2, axis)}};
     }
     /// Appends what is swept of the ray between `low` and `high`.
-    void cut(const Ray& ray, double low, double high, Pieces& out) const { cut(ray, low, high, 0.0, 1.0, 0, out); }
+    void cut(const Ray& ray, double low, double high, Pieces& out) const {
+        if (by_ball_ && cutByBall(ray, low, high, out)) return;
+        cut(ray, low, high, 0.0, 1.0, 0, out);
+    }
     /// How deep inside the sweep a point of the ray lies; negative outside.
     [[nodiscard]] double depth(const Ray& ray, double s) const;
 
@@ -52,6 +55,15 @@ private:
         double value, by_s, by_t;
     };
     class TimeSearch;
+    /// What a shifting ball sweeps of a ray, by the closed form.
+    struct Capsule {
+        bool hit = false;
+        double entry = 0.0, exit = 0.0;
+        double entry_time = 0.0, exit_time = 0.0;
+    };
+    [[nodiscard]] Capsule capsule(const Ray& ray) const;
+    /// False where the answer is not on the ball's lower half.
+    [[nodiscard]] bool cutByBall(const Ray& ray, double low, double high, Pieces& out) const;
 
     [[nodiscard]] Probe probe(const Ray& ray, double s, double t) const;
     void cut(const Ray& ray, double low, double high, double from, double to, int level, Pieces& out) const;
@@ -67,6 +79,7 @@ private:
     double turn_rad_ = 0.0;
     double bend_mm_ = 0.0;  ///< K
     double tolerance_mm_ = 0.0;
+    bool by_ball_ = false;
     Eigen::AlignedBox3d box_;
 };
 

@@ -53,6 +53,11 @@ public:
     [[nodiscard]] double height() const { return height_mm_; }
     /// Of the lowest point above the tip: 0 for cutters.
     [[nodiscard]] double base() const { return base_mm_; }
+    /// Of the ball that the body ends in, centred as high above the tip; 0 where it ends in none.
+    [[nodiscard]] double ballRadius() const {
+        const bool ball = corner_rho_mm_ == 0.0 && bottom_sin_ == 0.0 && flank_sin_ == 0.0;
+        return ball ? corner_radius_mm_ : 0.0;
+    }
 
 private:
     CutterBody() = default;
