@@ -90,6 +90,12 @@ base::Result<void> check(const CutterPath& path, const EnvelopeOptions& options)
 base::Result<SurfaceEnvelope> surfaceEnvelope(const CutterPath& path, std::span<const geometry::SurfaceFace> faces,
                                               const EnvelopeOptions& options) {
     if (const auto ok = check(path, options); !ok) return base::fail(ok.error());
+    return surfaceEnvelope(path, surfaceGrid(faces, options.spacing_mm), options);
+}
+
+base::Result<SurfaceEnvelope> surfaceEnvelope(const CutterPath& path, SurfaceGrid grid,
+                                              const EnvelopeOptions& options) {
+    if (const auto ok = check(path, options); !ok) return base::fail(ok.error());
     const auto bodies = bodiesOf(path);
     if (!bodies) return base::fail(bodies.error());
     std::vector<SweptMove> swept;
@@ -99,7 +105,7 @@ base::Result<SurfaceEnvelope> surfaceEnvelope(const CutterPath& path, std::span<
 
     SurfaceEnvelope out;
     out.band_mm = options.band_mm;
-    out.grid = surfaceGrid(faces, options.spacing_mm);
+    out.grid = std::move(grid);
     out.points.resize(out.grid.points.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.grid.tiles.size()), [&](const auto& range) {
         TileSearch search(moves, options.band_mm);

@@ -61,6 +61,10 @@ struct EnvelopeSummary {
 [[nodiscard]] base::Result<SurfaceEnvelope>
 surfaceEnvelope(const CutterPath& path, std::span<const geometry::SurfaceFace> faces, const EnvelopeOptions& options);
 
+/// The same at points of the caller's choice; `spacing_mm` is not looked at.
+[[nodiscard]] base::Result<SurfaceEnvelope> surfaceEnvelope(const CutterPath& path, SurfaceGrid grid,
+                                                            const EnvelopeOptions& options);
+
 /// `tolerance_mm`: points within ± of it count as within.
 [[nodiscard]] EnvelopeSummary summaryOf(const SurfaceEnvelope& envelope, double tolerance_mm);
 
