@@ -34,7 +34,8 @@ Json recordJson(const GenerationRecord& r) {
             numberJson(r.population_worst),
             r.diversity,
             r.infections,
-            r.improvements};
+            r.improvements,
+            r.restarted};
 }
 GenerationRecord recordOf(const Json& j) {
     return {.generation = j.at(0),
@@ -47,7 +48,8 @@ GenerationRecord recordOf(const Json& j) {
             .population_worst = numberOf(j.at(7)),
             .diversity = j.at(8),
             .infections = j.at(9),
-            .improvements = j.at(10)};
+            .improvements = j.at(10),
+            .restarted = j.at(11)};
 }
 
 Json toJson(const Checkpoint& checkpoint) {
@@ -108,6 +110,7 @@ Json fingerprint(const Encoding& encoding, const SearchOptions& o) {
     out["selection"] = {static_cast<int>(o.selection), o.tournament_size, static_cast<int>(o.fitness_scale)};
     out["crossover"] = {static_cast<int>(o.crossover), o.crossover_probability};
     out["mutation"] = {static_cast<int>(o.mutation), o.mutation_probability};
+    out["restart_diversity"] = o.restart_diversity;
     Json& starts = out["starts"] = Json::array();
     for (const Values& start : o.starts) starts.push_back(start);
     out["acceptance"] = static_cast<int>(o.acceptance);

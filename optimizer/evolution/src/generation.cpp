@@ -160,8 +160,17 @@ base::Result<StepEnd> firstPopulation(RunState& state, StepContext& context) {
 }
 
 base::Result<StepEnd> nextGeneration(RunState& state, StepContext& context) {
-    switch (context.options.algorithm) {
-        case Algorithm::RandomSearch: return randomGeneration(state, context, {});
+    const Algorithm algorithm = context.options.algorithm;
+    if (algorithm == Algorithm::RandomSearch) return randomGeneration(state, context, {});
+    if (diversityOf(state.population) < context.options.restart_diversity) {
+        context.restarted = true;
+        const std::size_t best = eliteOf(context.objectives(state.population), 1).front();
+        auto renewed = randomGeneration(state, context, {state.population[best].bits});
+        if (!renewed || *renewed == StepEnd::Cut) return renewed;
+        return algorithm == Algorithm::VirusEvolutionary ? infect(state, context) : renewed;
+    }
+    switch (algorithm) {
+        case Algorithm::RandomSearch: break;
         case Algorithm::SteadyState: return steadyGeneration(state, context);
         case Algorithm::Genetic: return elitistGeneration(state, context);
         case Algorithm::VirusEvolutionary: break;

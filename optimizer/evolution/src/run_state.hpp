@@ -28,6 +28,7 @@ struct StepContext {
     base::Random random;
     std::size_t infections = 0;
     std::size_t improvements = 0;
+    bool restarted = false;
 
     /// The strings judged; nothing where the budget ended or a stop was asked for before all were.
     [[nodiscard]] base::Result<std::optional<std::vector<Individual>>> judge(std::vector<Bits> strings);

@@ -18,18 +18,6 @@ namespace {
 /// Generations in a row without a new candidate after which none is expected any more.
 constexpr std::size_t barren_generations = 1000;
 
-double diversityOf(const std::vector<Individual>& population) {
-    const std::size_t length = population.front().bits.size();
-    double sum = 0.0;
-    for (std::size_t b = 0; b < length; ++b) {
-        double ones = 0.0;
-        for (const Individual& individual : population) ones += individual.bits[b];
-        const double p = ones / static_cast<double>(population.size());
-        sum += 4.0 * p * (1.0 - p);
-    }
-    return sum / static_cast<double>(length);
-}
-
 class Run {
 public:
     Run(const Encoding& encoding, const EvaluateBatch& evaluate, const SearchOptions& options, base::Progress& progress,
@@ -123,6 +111,7 @@ private:
         r.diversity = diversityOf(state_.population);
         r.infections = context.infections;
         r.improvements = context.improvements;
+        r.restarted = context.restarted;
         state_.history.push_back(r);
     }
 
@@ -160,6 +149,7 @@ private:
             last.repeats = ledger_.repeats();
             last.best = ledger_.objective(best_);
             last.infections = last.improvements = 0;
+            last.restarted = false;
             state_.history.push_back(last);
         }
         SearchSummary out;
@@ -190,6 +180,18 @@ private:
 
 }  // namespace
 
+double diversityOf(const std::vector<Individual>& population) {
+    const std::size_t length = population.front().bits.size();
+    double sum = 0.0;
+    for (std::size_t b = 0; b < length; ++b) {
+        double ones = 0.0;
+        for (const Individual& individual : population) ones += individual.bits[b];
+        const double p = ones / static_cast<double>(population.size());
+        sum += 4.0 * p * (1.0 - p);
+    }
+    return sum / static_cast<double>(length);
+}
+
 base::Result<SearchSummary> search(const Encoding& encoding, const EvaluateBatch& evaluate,
                                    const SearchOptions& options, base::Progress& progress,
                                    const OnGeneration& on_generation) {
@@ -215,11 +217,12 @@ std::string toText(Termination termination) {
 std::string convergenceCsv(const std::vector<GenerationRecord>& history) {
     const auto number = [](double value) { return std::isfinite(value) ? base::formatShortest(value) : "inf"; };
     std::string out = "generation,evaluations,viral_evaluations,repeats,best,population_best,population_mean,"
-                      "population_worst,diversity,infections,improvements\n";
+                      "population_worst,diversity,infections,improvements,restarted\n";
     for (const GenerationRecord& r : history)
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", r.generation, r.evaluations, r.viral_evaluations,
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", r.generation, r.evaluations, r.viral_evaluations,
                            r.repeats, number(r.best), number(r.population_best), number(r.population_mean),
-                           number(r.population_worst), number(r.diversity), r.infections, r.improvements);
+                           number(r.population_worst), number(r.diversity), r.infections, r.improvements,
+                           r.restarted ? 1 : 0);
     return out;
 }
 

@@ -39,6 +39,7 @@ base::Result<void> SearchOptions::check(const Encoding& encoding) const {
                   fmt::format("{} of {} individuals; at least one must be new", elite, population));
     check.require(tournament_size >= 1, "tournament_size", "a tournament has at least one contestant");
     check.share(crossover_probability, "crossover_probability");
+    check.share(restart_diversity, "restart_diversity");
     check.share(mutation_probability, "mutation_probability");
     check.require(max_evaluations >= population, "max_evaluations",
                   fmt::format("{} do not suffice for a first population of {}", max_evaluations, population));
@@ -61,6 +62,12 @@ SearchOptions paperOptions() {
     out.crossover = Crossover::SinglePoint;
     out.mutation = Mutation::SinglePoint;
     out.mutation_probability = 0.1;
+    out.restart_diversity = 0.0;
+    out.virus.population = 7;
+    out.virus.infection_rate = 0.7;
+    out.virus.min_infection_rate = 0.5;
+    out.virus.max_infection_rate = 1.0;
+    out.virus.elite_share = 0.5;
     out.max_evaluations = 1'000'000;
     out.max_generations = 50;
     return out;

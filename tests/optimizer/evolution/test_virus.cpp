@@ -112,6 +112,7 @@ TEST(Virus, TheForceDecidesItsFate) {
 TEST(Virus, TheRateAdaptsWithinItsInterval) {
     VirusOptions options;
     options.rate_adaptation = 0.5;
+    options.min_infection_rate = 0.5;
     Virus virus{.locus = 0, .bits = {1}, .infection_rate = 0.6, .force = 0.0};
     static_cast<void>(updateInfectivity(virus, 1.0, options));
     EXPECT_NEAR(virus.infection_rate, 0.9, 1e-15);

@@ -35,6 +35,8 @@ enum class InfectionAcceptance {
     Always,       ///< in any case, as a mutation would
 };
 
+/// The defaults are those that did best on a shifted eq. 13 and on a mixed problem of five genes (bench/optimizer): few
+/// viruses, from the elite, on few hosts. Take them with `Coding::Gray`.
 struct SearchOptions {
     Algorithm algorithm = Algorithm::VirusEvolutionary;
     std::uint64_t seed = 1;
@@ -42,7 +44,7 @@ struct SearchOptions {
     std::size_t population = 20;
     std::size_t elite = 2;  ///< individuals that pass to the next generation unchanged
     Selection selection = Selection::Tournament;
-    std::size_t tournament_size = 2;
+    std::size_t tournament_size = 3;
     FitnessScale fitness_scale = FitnessScale::Population;  ///< of roulette
     Crossover crossover = Crossover::Uniform;
     double crossover_probability = 0.9;
@@ -52,6 +54,9 @@ struct SearchOptions {
     VirusOptions virus;
     InfectionAcceptance acceptance = InfectionAcceptance::Improvement;
 
+    /// When the population's diversity (`GenerationRecord::diversity`) falls below this, all but its best individual are drawn
+    /// anew; viruses live on, and carry what was found into the new population. 0: never, as in the paper.
+    double restart_diversity = 0.1;
     /// Candidates of the first population, the nearest on the grid; the others are random.
     std::vector<Values> starts;
 
@@ -93,6 +98,7 @@ struct GenerationRecord {
     double diversity = 0.0;        ///< mean over the bits of 4 p (1 − p), p the share of ones: 1 random, 0 all alike
     std::size_t infections = 0;    ///< in this generation
     std::size_t improvements = 0;  ///< infections that gained
+    bool restarted = false;        ///< the population was drawn anew in this generation
 };
 
 struct Individual {
@@ -140,6 +146,9 @@ using OnGeneration = std::function<void(const GenerationRecord&)>;
                                                  const SearchOptions& options,
                                                  base::Progress& progress = base::noProgress(),
                                                  const OnGeneration& on_generation = {});
+
+/// Mean over the bits of 4 p (1 − p), p the share of ones: 1 for many random strings, 0 where all are alike.
+[[nodiscard]] double diversityOf(const std::vector<Individual>& population);
 
 /// The history as CSV, one line per generation, keys as in GenerationRecord.
 [[nodiscard]] std::string convergenceCsv(const std::vector<GenerationRecord>& history);

@@ -20,19 +20,19 @@ struct Virus {
 };
 
 struct VirusOptions {
-    std::size_t population = 7;
+    std::size_t population = 2;
     std::size_t shortest = 1;
     std::size_t longest = 40;  ///< bits; never more than the chromosome has
     /// r in InfForce(g) = r · InfForce(g − 1) + FitVrs: what a virus inherits of the force it had.
     double infectivity_force = 0.001;
-    double infection_rate = 0.7;  ///< at birth
+    double infection_rate = 0.1;  ///< at birth
     /// The interval the rate is kept in: 0 … 0.5 for global search, 0.5 … 1 for local search, in the paper's words.
-    double min_infection_rate = 0.5;
+    double min_infection_rate = 0.0;
     double max_infection_rate = 1.0;
     /// α: the rate of a virus that improved something becomes (1 + α) times itself, of one that did not (1 − α) times. 0: fixed.
     double rate_adaptation = 0.0;
     /// Share of the viruses cut from the elite; the others from any individual.
-    double elite_share = 0.5;
+    double elite_share = 1.0;
     /// Infections happen after every so many generations.
     std::size_t interval = 1;
 };
