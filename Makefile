@@ -80,10 +80,7 @@ docs: ## Write the pages made from the schemas (docs/*.md), and the reference of
 	scripts/deps.sh build docs
 	cmake --preset release
 	cmake --build --preset release --target cusp_cli -j$(JOBS)
-	build/release/bin/cusp schema machine-file > docs/machine-file.md
-	build/release/bin/cusp schema setup-file > docs/setup-file.md
-	build/release/bin/cusp schema post-job > docs/post-job.md
-	build/release/bin/cusp schema plan-job > docs/plan-job.md
+	set -e; for page in $$(build/release/bin/cusp schema); do build/release/bin/cusp schema $$page > docs/$$page.md; done
 	mkdir -p build/docs
 	doxygen docs/Doxyfile
 

@@ -18,45 +18,50 @@ namespace cusp::cli {
 
 namespace {
 
-std::string machineFilePage() {
+/// A file cusp reads. A new one is one more entry of `pages`; `make docs` and the tests walk the same table.
+struct Page {
+    const char* name;
+    const char* title;
+    const char* introduction;
+    std::vector<base::FieldInfo> (*fields)();
+};
+
+std::vector<base::FieldInfo> machineFileFields() {
     std::vector<base::FieldInfo> fields = machine::machineSection().describe();
     fields.push_back(
         base::nestedInfo("control", post::controlSection().doc(), "table", {}, post::controlSection().describe()));
-    return base::schemaMarkdown(
-        "Machine files",
-        "A machine is one TOML file: how its axes stand on one another, what they can do, and "
-        "what its control wants to read. The unit of a number is the end of its key; a key that "
-        "is not listed here is an error. `cusp machine check FILE` says whether a file is sound.",
-        fields);
+    return fields;
 }
 
-std::string postJobPage() {
-    return base::schemaMarkdown(
-        "Posting jobs", "`cusp post --config JOB.toml` reads these; a flag of the same name wins over the file.",
-        postJobSection().describe());
+constexpr Page pages[] = {
+    {"machine-file", "Machine files",
+     "A machine is one TOML file: how its axes stand on one another, what they can do, and what its control wants to read. "
+     "The unit of a number is the end of its key; a key that is not listed here is an error. `cusp machine check FILE` says "
+     "whether a file is sound.",
+     machineFileFields},
+    {"setup-file", "Setup files",
+     "A setup says where the workpiece lies in the machine and how long the tools are; with it `cusp post --setup` checks "
+     "the travel of the linear axes. The unit of a number is the end of its key; a key that is not listed here is an error.",
+     [] { return machine::setupSection().describe(); }},
+    {"post-job", "Posting jobs",
+     "`cusp post --config JOB.toml` reads these; a flag of the same name wins over the file.",
+     [] { return postJobSection().describe(); }},
+    {"plan-job", "Planning jobs",
+     "`cusp plan JOB.toml -o P.apt` reads these. The unit of a number is the end of its key; a key that is not listed here is "
+     "an error. Examples: `examples/benchmark/table2_ga.toml` and `table2_vega.toml`.",
+     [] { return finishing::planJobSection().describe(); }},
+};
+
+std::vector<std::string> pageNames() {
+    std::vector<std::string> names;
+    for (const Page& page : pages) names.emplace_back(page.name);
+    return names;
 }
 
-std::string setupFilePage() {
-    return base::schemaMarkdown(
-        "Setup files",
-        "A setup says where the workpiece lies in the machine and how long the tools are; with it `cusp post --setup` "
-        "checks the travel of the linear axes. The unit of a number is the end of its key; a key that is not listed here "
-        "is an error.",
-        machine::setupSection().describe());
-}
-
-std::string planJobPage() {
-    return base::schemaMarkdown(
-        "Planning jobs",
-        "`cusp plan JOB.toml -o P.apt` reads these. The unit of a number is the end of its key; a key that is not listed here is "
-        "an error. Examples: `examples/benchmark/table2_ga.toml` and `table2_vega.toml`.",
-        finishing::planJobSection().describe());
-}
-
-std::string pageOf(const std::string& name) {
-    if (name == "machine-file") return machineFilePage();
-    if (name == "plan-job") return planJobPage();
-    return name == "setup-file" ? setupFilePage() : postJobPage();
+void printPage(const std::string& name) {
+    for (const Page& page : pages) {
+        if (name == page.name) say(base::schemaMarkdown(page.title, page.introduction, page.fields()));
+    }
 }
 
 }  // namespace
@@ -64,12 +69,14 @@ std::string pageOf(const std::string& name) {
 void addSchemaCommand(CLI::App& app, Action& action) {
     CLI::App* schema = app.add_subcommand("schema", "Prints the documentation page (Markdown) of a file cusp reads.");
     const auto page = std::make_shared<std::string>();
-    schema->add_option("PAGE", *page, "machine-file, setup-file, post-job or plan-job")
-        ->required()
-        ->check(CLI::IsMember({"machine-file", "setup-file", "post-job", "plan-job"}));
+    schema->add_option("PAGE", *page, "without it, the names of all pages")->check(CLI::IsMember(pageNames()));
     schema->callback([page, &action] {
         action = [page] {
-            say(pageOf(*page));
+            if (page->empty()) {
+                for (const std::string& name : pageNames()) say(name + "\n");
+            } else {
+                printPage(*page);
+            }
             return ExitCode::Done;
         };
     });
