@@ -7,6 +7,7 @@
 #include "inspect_flags.hpp"
 #include "inspect_output.hpp"
 #include "inspect_text.hpp"
+#include "inspection_page.hpp"
 #include "qif_schema.hpp"
 
 #include <cusp/base/atomic_file.hpp>
@@ -109,7 +110,7 @@ ExitCode runInspect(const InspectFlags& flags) {
     if (interrupted()) return ExitCode::Interrupted;
     if (const auto done = writeResults(flags, *report); !done) return failWith(done.error());
     if (flags.json)
-        sayJson(inspect::toJson(*report));
+        sayJson(inspectionJson(*report));
     else
         say(inspectionText(*report));
     return exitCodeFor(*report);
@@ -148,6 +149,7 @@ void addFitFlags(CLI::App& inspect, InspectFlags& flags) {
         ->check(CLI::IsMember({"squared", "huber", "cauchy", "tukey"}));
     inspect.add_option("--loss-scale-mm", flags.loss_scale_mm, "Scale of the loss; 0 takes it from the residuals.")
         ->check(CLI::NonNegativeNumber);
+    inspect.add_flag("--weights", flags.weights, "Points count in the fit by the column \"weight\" of the table.");
     inspect.add_option("--start", flags.start, "Where the points lie to begin with: as given, or anywhere (scan).")
         ->capture_default_str()
         ->check(CLI::IsMember({"given", "scan"}));
@@ -159,6 +161,10 @@ void addFitFlags(CLI::App& inspect, InspectFlags& flags) {
 void addDecisionFlags(CLI::App& inspect, InspectFlags& flags) {
     inspect.add_option("--sections", flags.sections, "Profile sections, e.g. X=-5,-30,-60,-90.");
     inspect.add_option("--section-width-mm", flags.section_width_mm, "Full width of the band a section is cut from.")
+        ->check(CLI::PositiveNumber);
+    inspect
+        .add_option("--step-over-mm", flags.step_over_mm,
+                    "Planned distance of neighbouring passes: scallops are counted and measured against it.")
         ->check(CLI::PositiveNumber);
     CLI::Option* limits =
         inspect.add_option("--limits-mm", flags.limits_mm, "Limits of the deviation, e.g. --limits-mm=-0.01,0.01.")

@@ -6,6 +6,7 @@
 #include "job_file.hpp"
 
 #include <cusp/base/schema_field.hpp>
+#include <cusp/geometry/surface_file.hpp>
 #include <cusp/machine/setup_definition.hpp>
 #include <cusp/optimizer/finishing/plan_job.hpp>
 #include <cusp/post/control/control_definition.hpp>
@@ -43,6 +44,10 @@ constexpr Page pages[] = {
      "A setup says where the workpiece lies in the machine and how long the tools are; with it `cusp post --setup` checks "
      "the travel of the linear axes. The unit of a number is the end of its key; a key that is not listed here is an error.",
      [] { return machine::setupSection().describe(); }},
+    {"surface-file", "Surface files",
+     "A surface file is a nominal surface written down in TOML: polynomials as a paper prints them, Bézier nets, B-splines "
+     "and NURBS. `examples/benchmark/surface.toml` is one. Lengths are in mm; a key that is not listed here is an error.",
+     [] { return geometry::surfaceFileSection().describe(); }},
     {"post-job", "Posting jobs",
      "`cusp post --config JOB.toml` reads these; a flag of the same name wins over the file.",
      [] { return postJobSection().describe(); }},

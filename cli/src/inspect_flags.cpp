@@ -58,6 +58,8 @@ base::Result<inspect::InspectionOptions> inspectionOptions(const InspectFlags& f
             if (name == inspect::freedomName(freedom)) out.locked.at(static_cast<std::size_t>(freedom)) = true;
     out.loss = lossOf(flags.loss);
     out.loss_scale_mm = flags.loss_scale_mm;
+    out.use_weights = flags.weights;
+    out.planned_step_over_mm = flags.step_over_mm;
     out.probe_radius_mm = flags.probe_radius_mm;
     out.probe_form_error_mm = flags.probe_form_mm;
     out.uncertainty_mm = flags.uncertainty_mm;

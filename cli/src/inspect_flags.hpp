@@ -27,10 +27,12 @@ struct InspectFlags {
     std::vector<std::string> lock;
     std::string loss = "squared";
     double loss_scale_mm = 0.0;
+    bool weights = false;
     std::string start = "given";
     std::string references;
     std::string sections;
     std::optional<double> section_width_mm;
+    double step_over_mm = 0.0;
     std::vector<double> limits_mm;
     std::optional<double> profile_t_mm;
     std::optional<double> uncertainty_mm;

@@ -23,11 +23,11 @@ using inspect::ByteSink;
 using inspect::InspectionReport;
 
 base::Result<void> writeJson(const InspectionReport& report, const ByteSink& sink) {
-    return base::jsonText(inspect::toJson(report)).and_then(sink);
+    return base::jsonText(inspectionJson(report)).and_then(sink);
 }
 
 base::Result<void> writePage(const InspectionReport& report, const ByteSink& sink) {
-    return inspectionPage(report).and_then(sink);
+    return inspectionPage(report, report.planned_step_over_mm).and_then(sink);
 }
 
 struct Output {

@@ -4,8 +4,11 @@
 #include "inspect_text.hpp"
 
 #include <cusp/base/units.hpp>
+#include <cusp/inspect/texture_section.hpp>
 
+#include <cstdint>
 #include <fmt/format.h>
+#include <vector>
 
 #include <cmath>
 
@@ -50,6 +53,30 @@ std::string statisticsText(const std::string& name, const DeviationStatistics& s
                        um_per_mm * s.profile_mm);
 }
 
+/// Against the plan; nothing without one.
+std::string scallopsText(const InspectionReport& report) {
+    if (!(report.planned_step_over_mm > 0.0)) return {};
+    std::string out = fmt::format("scallops, planned {:.6g} mm apart\n", report.planned_step_over_mm);
+    for (const auto& section : report.sections) {
+        std::vector<double> deviations_mm;
+        for (const std::uint32_t point : section.points)
+            deviations_mm.push_back(report.judged().deviations[point].deviation_mm);
+        const auto found = inspect::evaluateSection(section.arc_length_mm, deviations_mm, report.planned_step_over_mm);
+        out += fmt::format("  section {:<14}", section.label);
+        if (!found)
+            out += found.error().front().message + "\n";
+        else if (!found->scallops)
+            out += found->note + "\n";
+        else if (found->scallops->count < 2)
+            out += fmt::format("{} found\n", found->scallops->count);
+        else
+            out += fmt::format("{:>8} found ({:.0f} planned), {:.4g} mm apart, height {:.4f} µm, at most {:.4f} µm\n",
+                               found->scallops->count, found->scallops->planned_count, found->scallops->mean_spacing_mm,
+                               um_per_mm * found->scallops->mean_height_mm, um_per_mm * found->scallops->max_height_mm);
+    }
+    return out;
+}
+
 std::string deviationsText(const InspectionReport& report) {
     std::string out = "deviations in µm        points         min         max        mean         rms     profile\n";
     out += statisticsText("in the fixed datums", report.datum.statistics);
@@ -72,7 +99,8 @@ std::string decisionText(const InspectionReport& report) {
 }  // namespace
 
 std::string inspectionText(const InspectionReport& report) {
-    return pointsText(report) + alignmentText(report.alignment) + deviationsText(report) + decisionText(report);
+    return pointsText(report) + alignmentText(report.alignment) + deviationsText(report) + scallopsText(report) +
+           decisionText(report);
 }
 
 }  // namespace cusp::cli

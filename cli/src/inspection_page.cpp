@@ -159,6 +159,12 @@ void addSectionForms(Json& json, const InspectionReport& report, double planned_
     }
 }
 
+Json inspectionJson(const InspectionReport& report) {
+    Json json = inspect::toJson(report);
+    addSectionForms(json, report, report.planned_step_over_mm);
+    return json;
+}
+
 Json inspectionDocument(const InspectionReport& report, double planned_step_over_mm, std::size_t map_points) {
     Json document = inspect::toJson(report);
     addSectionForms(document, report, planned_step_over_mm);

@@ -18,6 +18,9 @@ inline constexpr std::size_t points_on_map = 60'000;
 /// report's JSON; a section whose arc length does not grow gets neither.
 void addSectionForms(base::Json& json, const inspect::InspectionReport& report, double planned_step_over_mm);
 
+/// report.json and `--json`: the report with the form of every section and, with a planned step-over, its scallops.
+[[nodiscard]] base::Json inspectionJson(const inspect::InspectionReport& report);
+
 /// The document of the page "inspection" (pages/web/pages/inspection_input.ts). A cloud of more than `map_points` is thinned
 /// to points at equal steps and the largest deviations; the page says so.
 [[nodiscard]] base::Json inspectionDocument(const inspect::InspectionReport& report, double planned_step_over_mm = 0.0,

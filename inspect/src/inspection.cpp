@@ -75,11 +75,14 @@ public:
         : nominal_(nominal), options_(options), report_(report) {}
 
     base::Result<InspectionReport> run(MeasuredPoints points) {
+        if (auto problem = checkWeights(points)) return base::fail(*std::move(problem));
         if (auto problem = checkUnit(points, nominal_)) return base::fail(*std::move(problem));
         const auto probe = decideProbe(points, nominal_, options_, report_);
         if (!probe) return base::fail(probe.error());
         if (auto problem = checkPlane(points, nominal_, options_)) return base::fail(*std::move(problem));
-        auto alignment = align(points.positions, nominal_, alignmentOptions(options_, probe->radius_mm));
+        AlignmentOptions fit = alignmentOptions(options_, probe->radius_mm);
+        if (options_.use_weights) fit.weights = points.weights;
+        auto alignment = align(points.positions, nominal_, fit);
         if (!alignment) return base::fail(explained(alignment.error(), points, probe->radius_mm));
         out_.points = std::move(points);
         out_.points_file = out_.points.source;
@@ -87,6 +90,8 @@ public:
         out_.kind_source = probe->source;
         out_.probe_radius_mm = probe->radius_mm;
         out_.alignment = *std::move(alignment);
+        out_.weighted = options_.use_weights;
+        out_.planned_step_over_mm = options_.planned_step_over_mm;
         out_.judged_in_datum = options_.judge_in_datum;
         out_.outlier_rule = options_.outlier_rule;
         out_.edge_tolerance_mm = options_.edge_tolerance_mm;
@@ -104,6 +109,19 @@ public:
     }
 
 private:
+    std::optional<base::Diagnostics> checkWeights(const MeasuredPoints& points) {
+        base::Location where;
+        where.file = points.source;
+        if (!options_.use_weights && !points.weights.empty())
+            report_.note("inspect.weights-unused", "the points have weights, which do not count without --weights",
+                         where);
+        if (!options_.use_weights || !points.weights.empty()) return std::nullopt;
+        base::Diagnostics out;
+        out.error("inspect.weights", "the points have no weights; --weights needs a column \"weight\" in a table",
+                  where);
+        return out;
+    }
+
     /// The problems of a fit with the file they are of; why nothing overlaps is looked into.
     base::Diagnostics explained(const base::Diagnostics& problems, const MeasuredPoints& points,
                                 double offset_mm) const {

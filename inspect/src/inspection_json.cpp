@@ -119,7 +119,8 @@ Json toJson(const SectionResult& section) {
     out["width_mm"] = section.width_mm;
     out["points"] = section.points.size();
     out["beyond_edge"] = section.beyond_edge;
-    out["length_mm"] = section.arc_length_mm.empty() ? 0.0 : section.arc_length_mm.back();
+    out["pieces"] = section.piece_starts.size();
+    out["length_mm"] = section.length_mm;
     out["deviation"] = toJson(section.statistics);
     return out;
 }
@@ -151,6 +152,7 @@ base::Json toJson(const InspectionReport& report) {
     measured["probe_radius_mm"] = report.probe_radius_mm;
     out["measured"] = measured;
     out["alignment"] = toJson(report.alignment);
+    out["alignment"]["weighted"] = report.weighted;
     out["judged"] = report.judged_in_datum ? "datum" : "best-fit";
     out["deviation"] = toJson(report.judged());
     out["datum_deviation"] = toJson(report.datum);
@@ -162,6 +164,7 @@ base::Json toJson(const InspectionReport& report) {
     Json sections = Json::array();
     for (const SectionResult& section : report.sections) sections.push_back(toJson(section));
     out["sections"] = sections;
+    out["planned_step_over_mm"] = report.planned_step_over_mm > 0.0 ? Json(report.planned_step_over_mm) : Json(nullptr);
     out["decision"] = toJson(report.judged().decision);
     out["doubts"] = report.doubts;
     out["deviation_field"] = fieldsOf(report);

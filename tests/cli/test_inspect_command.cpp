@@ -82,6 +82,75 @@ TEST_F(InspectCommand, JsonHasWhatScriptsNeed) {
     EXPECT_EQ(nlohmann::json::parse(in_datum.output)["decision"]["verdict"], "reject");
 }
 
+TEST_F(InspectCommand, ScallopsAreMeasuredAgainstThePlan) {
+    // Ridges 4 µm high over a line at v = 0.4, their feet at every fifth millimetre of Y.
+    std::string text = "section_X,x,y,z\n";
+    const double v = 0.4;
+    const double x = -94.4 + 88.9 * v + 5.6 * v * v;
+    for (int i = 1; i < 600; ++i) {
+        const double u = i / 600.0;
+        const double y = -131.3 * u + 28.1 * u * u;
+        const double in_pass = std::fmod(-y, 5.0) / 5.0 - 0.5;
+        const double z = 5.9 * (u * u * v * v + u * u * v) - 3.9 * v * v * u + 76.2 * u * u + 6.7 * v * v -
+                         27.3 * u * v - 50.8 * u + 25.0 * v + 12.1 + 0.004 * 4.0 * in_pass * in_pass;
+        text += fmt::format("{:.6f},{:.9f},{:.9f},{:.9f}\n", x, x, y, z);
+    }
+    const auto out =
+        inspectPoints(text, {"--step-over-mm=5.5", "--points=surface", "--fit=none", "--json", "-o", path("report")});
+    ASSERT_EQ(out.exit_code, 0) << out.errors;
+    const auto json = nlohmann::json::parse(out.output);
+    EXPECT_EQ(json["planned_step_over_mm"], 5.5);
+    const auto& section = json["sections"][0];
+    EXPECT_EQ(section["pieces"], 1);
+    const auto& scallops = section["scallops"];
+    EXPECT_EQ(scallops["count"], 20);  // whole ridges within 103.2 mm of Y
+    EXPECT_NEAR(scallops["planned_count"].get<double>(), section["length_mm"].get<double>() / 5.5, 1e-9);
+    EXPECT_NEAR(scallops["max_height_mm"].get<double>(), 0.0038, 0.0003);  // along the normal, less than along Z
+    EXPECT_EQ(nlohmann::json::parse(read("report/report.json"))["sections"][0]["scallops"], scallops);
+    EXPECT_NE(read("report/report.html").find("planned_step_over_mm"), std::string::npos);
+    const auto told = inspectPoints(text, {"--step-over-mm=5.5", "--points=surface", "--fit=none"});
+    EXPECT_NE(told.output.find("20 found"), std::string::npos) << told.output;
+    // Without a plan ridges of noise would count.
+    const auto unplanned = inspectPoints(text, {"--points=surface", "--fit=none", "--json"});
+    EXPECT_FALSE(nlohmann::json::parse(unplanned.output)["sections"][0].contains("scallops"));
+    EXPECT_TRUE(nlohmann::json::parse(unplanned.output)["planned_step_over_mm"].is_null());
+}
+
+TEST_F(InspectCommand, WeightsOfTheTableCountWhenAsked) {
+    std::string text = "x,y,z,weight\n";
+    std::istringstream rows(points(0.001));
+    std::string row;
+    std::getline(rows, row);
+    for (int k = 0; std::getline(rows, row); ++k) {
+        for (char& c : row) c = c == ',' ? '.' : c;
+        for (char& c : row) c = c == ';' ? ',' : c;
+        row = row.substr(row.find(',') + 1);
+        const bool spoiled = k % 5 == 0;  // a fifth of the points 0.2 mm high, without weight
+        if (spoiled) {
+            const std::size_t last = row.rfind(',');
+            row = row.substr(0, last + 1) + fmt::format("{:.9f}", std::stod(row.substr(last + 1)) + 0.2);
+        }
+        text += row + (spoiled ? ",0\n" : ",1\n");
+    }
+    const auto median = [](const base::ProcessOutcome& out) {
+        return nlohmann::json::parse(out.output)["best_fit_deviation"]["median_mm"].get<double>();
+    };
+    const auto weighted = inspectPoints(text, {"--weights", "--json"});
+    EXPECT_NEAR(median(weighted), 0.0, 0.001);
+    EXPECT_TRUE(nlohmann::json::parse(weighted.output)["alignment"]["weighted"]);
+    const auto unweighted = inspectPoints(text, {"--json"});
+    EXPECT_LT(median(unweighted), -0.01);
+    EXPECT_NE(unweighted.errors.find("[inspect.weights-unused]"), std::string::npos);
+    const auto none = inspectPoints(points(0.001), {"--weights"});
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_NE(none.errors.find("--weights needs a column \"weight\" in a table [inspect.weights]"), std::string::npos);
+    const auto negative = inspectPoints("x,y,z,weight\n1,2,3,-1\n", {"--weights"});
+    EXPECT_NE(
+        negative.errors.find(":2: error: column 4: '-1' is no weight; a weight is a number, 0 or more [points.number]"),
+        std::string::npos)
+        << negative.errors;
+}
+
 TEST_F(InspectCommand, ProfileToleranceIsTheWholeWidth) {
     const auto out = inspectPoints(points(0.004), {"--profile-t-mm=0.02", "--uncertainty-mm=0", "--json"});
     const auto json = nlohmann::json::parse(out.output);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace cusp::inspect {
@@ -16,7 +17,9 @@ namespace {
 
 constexpr std::size_t first_sample = 120;
 constexpr std::size_t last_sample = 1000;
-constexpr std::size_t finalists = 6;
+constexpr std::size_t second_round = 24;
+constexpr std::size_t finalists = 8;
+constexpr std::size_t winners = 2;
 
 std::vector<Vector3> sampled(std::span<const Vector3> points, std::size_t wanted, bool mirrored) {
     const std::size_t count = std::min(points.size(), wanted);
@@ -85,6 +88,18 @@ FoundPose refined(const std::vector<Vector3>& points, const RigidTransform& star
     return out;
 }
 
+/// Every pose carried on with these points; the `kept` best ones remain, the best first.
+void carryOn(std::vector<FoundPose>& found, const std::vector<Vector3>& points, const geometry::NominalShape& nominal,
+             double offset_mm, int iterations, std::size_t kept) {
+    for (FoundPose& pose : found) {
+        const bool from_candidate = pose.from_candidate;
+        pose = refined(points, pose.nominal_from_measured, nominal, offset_mm, iterations);
+        pose.from_candidate = from_candidate;
+    }
+    std::sort(found.begin(), found.end(), [](const FoundPose& a, const FoundPose& b) { return a.rms_mm < b.rms_mm; });
+    if (found.size() > kept) found.resize(kept);
+}
+
 }  // namespace
 
 std::vector<geometry::Footpoint> sampleNominal(const geometry::NominalShape& nominal, std::size_t wanted) {
@@ -110,9 +125,7 @@ std::vector<geometry::Footpoint> sampleNominal(const geometry::NominalShape& nom
 
 FoundPose searchPose(std::span<const Vector3> points, const geometry::NominalShape& nominal,
                      const PoseSearchOptions& options) {
-    FoundPose best;
-    best.rms_mm = std::numeric_limits<double>::infinity();
-    if (points.empty()) return best;
+    if (points.empty()) return {RigidTransform::Identity(), std::numeric_limits<double>::infinity(), false};
     const std::vector<Vector3> few = sampled(points, first_sample, options.mirrored);
     const std::vector<Vector3> many = sampled(points, last_sample, options.mirrored);
     std::vector<Vector3> surface;
@@ -129,21 +142,16 @@ FoundPose searchPose(std::span<const Vector3> points, const geometry::NominalSha
     for (const geometry::Matrix3& rotation : uniformRotations(options.rotations))
         starts.push_back(poseBetween(from, to, rotation));
     std::vector<FoundPose> found;
-    constexpr int first_iterations = 12;
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-        found.push_back(refined(few, starts[i], nominal, options.offset_mm, first_iterations));
-        found.back().from_candidate = i < options.candidates.size();
-    }
-    std::sort(found.begin(), found.end(), [](const FoundPose& a, const FoundPose& b) { return a.rms_mm < b.rms_mm; });
+    for (std::size_t i = 0; i < starts.size(); ++i) found.push_back({starts[i], 0.0, i < options.candidates.size()});
+    // Few points and short rounds first: most starts show soon that they lead nowhere.
+    constexpr int first_iterations = 5;
+    constexpr int next_iterations = 10;
     constexpr int last_iterations = 60;
-    for (std::size_t i = 0; i < std::min(finalists, found.size()); ++i) {
-        const FoundPose end =
-            refined(many, found[i].nominal_from_measured, nominal, options.offset_mm, last_iterations);
-        if (end.rms_mm >= best.rms_mm) continue;
-        best = end;
-        best.from_candidate = found[i].from_candidate;
-    }
-    return best;
+    carryOn(found, few, nominal, options.offset_mm, first_iterations, second_round);
+    carryOn(found, few, nominal, options.offset_mm, next_iterations, finalists);
+    carryOn(found, few, nominal, options.offset_mm, last_iterations, winners);
+    carryOn(found, many, nominal, options.offset_mm, last_iterations, 1);
+    return found.front();
 }
 
 }  // namespace cusp::inspect

@@ -96,6 +96,10 @@ void PointCollector::section(std::string_view label) {
     points_.sections.push_back(last_section_);
 }
 
+void PointCollector::weight(double weight) {
+    if (points_.weights.size() < points_.positions.size()) points_.weights.push_back(weight);
+}
+
 void PointCollector::missing(std::uint64_t line) {
     if (missing_++ == 0) first_missing_line_ = line;
 }

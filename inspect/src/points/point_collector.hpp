@@ -30,6 +30,7 @@ public:
     /// Of the point just added.
     void direction(const Vector3& direction);
     void section(std::string_view label);
+    void weight(double weight);
     /// A point of a cloud without coordinates (NaN): passed over, and counted.
     void missing(std::uint64_t line);
 

@@ -11,7 +11,7 @@
 namespace cusp::inspect {
 namespace {
 
-enum class Role { Other, X, Y, Z, I, J, K, Section };
+enum class Role { Other, X, Y, Z, I, J, K, Section, Weight };
 
 struct ColumnName {
     std::string word;  ///< lower case, without the unit, '_' for what joins words
@@ -51,7 +51,8 @@ Role roleOf(const std::string& word) {
         {Role::I, {"i", "nx", "ni", "normal_x", "normalx", "dir_x", "vx"}},
         {Role::J, {"j", "ny", "nj", "normal_y", "normaly", "dir_y", "vy"}},
         {Role::K, {"k", "nz", "nk", "normal_z", "normalz", "dir_z", "vz"}},
-        {Role::Section, {"section", "section_x", "section_y", "section_z", "cut", "profile", "line"}}};
+        {Role::Section, {"section", "section_x", "section_y", "section_z", "cut", "profile", "line"}},
+        {Role::Weight, {"weight", "weights"}}};
     for (const Names& names : table)
         if (std::find(names.words.begin(), names.words.end(), word) != names.words.end()) return names.role;
     return Role::Other;
@@ -116,6 +117,7 @@ bool columnsFromNames(const std::vector<std::string_view>& names, std::uint64_t 
     const auto k = only(roles, Role::K, names, line, out);
     if (i && j && k) layout.direction = {*i, *j, *k};
     layout.section = only(roles, Role::Section, names, line, out);
+    layout.weight = only(roles, Role::Weight, names, line, out);
     if (layout.section) {
         const std::string& word = columns[*layout.section].word;
         layout.section_axis = word.ends_with("_x") ? 0 : (word.ends_with("_y") ? 1 : (word.ends_with("_z") ? 2 : -1));

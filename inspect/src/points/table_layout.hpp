@@ -22,6 +22,7 @@ struct TableLayout {
     std::array<std::size_t, 3> position{};  ///< columns of x, y, z
     std::optional<std::array<std::size_t, 3>> direction;
     std::optional<std::size_t> section;
+    std::optional<std::size_t> weight;
     int section_axis = -1;              ///< "section_X": 0
     std::optional<double> mm_per_unit;  ///< "x [inch]"
 };

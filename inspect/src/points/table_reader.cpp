@@ -8,6 +8,7 @@
 #include <cusp/base/number_text.hpp>
 
 #include <cctype>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace cusp::inspect {
@@ -88,7 +89,10 @@ public:
         if (!triple(layout_.position, number, position)) return;
         Vector3 direction;
         if (layout_.direction && !triple(*layout_.direction, number, direction)) return;
+        const std::optional<double> weight = layout_.weight ? weightAt(*layout_.weight, number) : std::nullopt;
+        if (layout_.weight && !weight) return;
         out_.add(number, position);
+        if (weight) out_.weight(*weight);
         if (layout_.direction) out_.direction(direction);
         if (layout_.section) out_.section(sectionLabel(fields_[*layout_.section]));
     }
@@ -109,6 +113,16 @@ private:
             value[static_cast<Eigen::Index>(i)] = *parsed;
         }
         return true;
+    }
+
+    std::optional<double> weightAt(std::size_t column, std::uint64_t number) {
+        const auto parsed = parseNumber(fields_[column], layout_.decimal);
+        if (parsed && *parsed >= 0.0 && std::isfinite(*parsed)) return parsed;
+        out_.error("points.number",
+                   fmt::format("column {}: {} is no weight; a weight is a number, 0 or more", column + 1,
+                               quoted(fields_[column])),
+                   number);
+        return std::nullopt;
     }
 
     /// "X=-5" for "-5.0" in a column "section_X".

@@ -16,6 +16,7 @@ struct InspectionOptions {
     std::array<bool, 6> locked{};
     Loss loss = Loss::Squared;
     double loss_scale_mm = 0.0;                         ///< 0: from the spread of the residuals
+    bool use_weights = false;                           ///< points count in the fit by the weights of the file
     RigidTransform start = RigidTransform::Identity();  ///< nominal_from_measured; the fixed datums
     std::optional<double> probe_radius_mm{};            ///< absent: as the file says
     std::optional<ToleranceLimits> limits{};
@@ -31,7 +32,7 @@ struct InspectionOptions {
         0.1;  ///< points farther beyond an edge have no deviation along a normal and do not count
 };
 
-/// Errors: `inspect.unit` (the sizes of points and nominal say that the unit is wrong), `inspect.kind`, `inspect.radius`
+/// Errors: `inspect.weights` (asked for, and the file has none), `inspect.unit` (the sizes of points and nominal say that the unit is wrong), `inspect.kind`, `inspect.radius`
 /// (centres or surface points, and the probe's radius, do not fit together), `align.*`. Doubts become warnings in `report`
 /// and withhold the decision (undecided, with the reason): `inspect.poor-fit` (wrong nominal, mirrored part, start too far
 /// off), `inspect.many-outliers`, `inspect.few-points`, `inspect.beyond-edge`.

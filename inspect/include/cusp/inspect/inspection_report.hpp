@@ -42,6 +42,8 @@ struct InspectionReport {
     std::string kind_source;       ///< who said so: "flag", "file", "found by fitting both ways"
     double probe_radius_mm = 0.0;  ///< 0 for surface points
     AlignmentSummary alignment;
+    bool weighted = false;  ///< points counted in the fit by the weights of the file; never in statistics and decision
+    double planned_step_over_mm = 0.0;  ///< 0: not known
     /// With the start pose: the coordinates of the file, or datums from reference points.
     Evaluation datum;
     /// With the fitted pose; the same as `datum` when the fit is none.

@@ -29,6 +29,7 @@ struct MeasuredPoints {
     std::vector<std::uint64_t> lines;    ///< line of each point, counted from 1
     std::vector<std::int32_t> sections;  ///< index into `section_labels`, −1 for none
     std::vector<std::string> section_labels;
+    std::vector<double> weights;            ///< of a column "weight", none negative
     double mm_per_unit = 1.0;               ///< already applied
     bool unit_stated = false;               ///< by the file or by the caller; otherwise mm was assumed
     std::optional<PointKind> kind;          ///< stated by the file or by the caller

@@ -34,9 +34,12 @@ struct SectionResult {
     double position_mm = 0.0;
     double width_mm = 0.0;
     std::vector<std::uint32_t> points;
-    std::vector<double> arc_length_mm;  ///< on the nominal section, 0 at the first point
-    DeviationStatistics statistics;     ///< `min_point`, `max_point` are indices of measured points
-    std::size_t beyond_edge = 0;        ///< points of the section left out because they lie beyond an edge
+    std::vector<double> arc_length_mm;  ///< on the nominal section, 0 at the first point; between pieces one usual step
+    /// Where in `points` the connected pieces of the section begin; {0} for a section in one piece.
+    std::vector<std::uint32_t> piece_starts;
+    double length_mm = 0.0;          ///< of all pieces
+    DeviationStatistics statistics;  ///< `min_point`, `max_point` are indices of measured points
+    std::size_t beyond_edge = 0;     ///< points of the section left out because they lie beyond an edge
 };
 
 /// "X=-5".
@@ -44,8 +47,8 @@ struct SectionResult {
 
 /// The sections of a plan. Where the file names a section of that label (a line of a measuring machine), its points;
 /// otherwise the points whose footpoint lies within half the width of the plane. Points lie on the section where the
-/// nominal meets the plane, ordered as the section runs; the arc length is that of the nominal section, chord by chord
-/// corrected by the turn of the tangents. One band is one curve: sections of several parts are joined by chords.
+/// nominal meets the plane, ordered as the section runs, folded or closed; the arc length is that of the nominal section.
+/// A section in several pieces has them one after another, in the order in which they were measured.
 [[nodiscard]] std::vector<SectionResult> cutSections(const SectionPlan& plan, const MeasuredPoints& points,
                                                      std::span<const PointDeviation> deviations,
                                                      const geometry::NominalShape& nominal, double edge_tolerance_mm);
