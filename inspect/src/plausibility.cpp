@@ -42,7 +42,10 @@ double rmsWith(const std::vector<Vector3>& points, const geometry::NominalShape&
     fit.loss = options.loss;
     fit.loss_scale_mm = options.loss_scale_mm;
     const auto summary = align(points, nominal, fit);
-    return summary ? summary->rms_mm : std::numeric_limits<double>::infinity();
+    // A few points that lie on the nominal by chance, the others beyond its edges, are no fit.
+    constexpr std::size_t one_in = 10;
+    const bool fits = summary && one_in * summary->beyond_edge <= points.size();
+    return fits ? summary->rms_mm : std::numeric_limits<double>::infinity();
 }
 
 struct Flatness {
@@ -158,6 +161,13 @@ base::Result<ProbeDecision> decideProbe(const MeasuredPoints& points, const geom
                             centres_fit_better ? "probe centres" : "surface points", better_mm, worse_mm),
                 fileOf(points));
     } else {
+        if (!(better_mm <= poorFitLimit(nominal)))
+            return base::fail(
+                "inspect.kind",
+                fmt::format("the points fit neither as probe centres nor as surface points: {}; which they "
+                            "are can then be said with --points",
+                            explainPoorFit(points, nominal, options, *radius).cause),
+                fileOf(points));
         constexpr double rounding_mm = 1e-6;
         if (!(worse_mm > 1.5 * better_mm + rounding_mm))
             return base::fail(

@@ -185,6 +185,21 @@ TEST_F(Misuse, CentresOrSurfacePoints) {
               "error: are the points probe centres or surface points? Both fit ");
 }
 
+TEST_F(Misuse, FarOffPointsAreNeitherCentresNorSurfacePoints) {
+    MeasuredPoints far;
+    far.source = "far.csv";
+    far.positions = transformed([](const Vector3& p) { return Vector3(p + Vector3(2e5, -3e5, 1e5)); });
+    InspectionOptions options;
+    options.probe_radius_mm = 1.0;
+    base::Diagnostics remarks;
+    const auto report = inspectPoints(far, patch, options, remarks);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(
+        toText(report.error()),
+        "far.csv: error: the points fit neither as probe centres nor as surface points: the start is too far off; "
+        "--start scan finds one; which they are can then be said with --points [inspect.kind]\n");
+}
+
 TEST_F(Misuse, DatumAndBestFitAreKeptApart) {
     const auto shifted = transformed([](const Vector3& p) { return Vector3(p + Vector3(0, 0, 0.05)); });
     InspectionOptions options;
