@@ -139,7 +139,7 @@ const base::Section<ThreeAxisOptions>& threeAxisSection() {
             .field("center_mm", &PathArea::center_mm, "Of the circles.")
             .field("radius_mm", &PathArea::radius_mm, "Not outside this circle.")
             .field("inner_radius_mm", &PathArea::inner_radius_mm, "Not inside this circle.");
-    constexpr base::FieldRules above_zero{.min = 0.0, .min_exclusive = true};
+    constexpr base::FieldRules above_zero = base::positive();
     constexpr base::FieldRules not_negative{.min = 0.0};
     using Options = ThreeAxisOptions;
     static const auto section =
