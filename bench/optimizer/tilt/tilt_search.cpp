@@ -29,9 +29,10 @@ bool isBetter(const cusp::tilt::TiltFitness& a, const cusp::tilt::TiltFitness& b
 
 void compare(const TiltCase& problem, int runs, std::uint64_t first_seed) {
     std::printf("  %d seeded runs against random search at equal evaluations, seeds %llu to %llu\n", runs,
-                static_cast<unsigned long long>(first_seed), static_cast<unsigned long long>(first_seed) + static_cast<unsigned long long>(runs) - 1);
-    std::printf("  %4s %6s %12s %10s %14s %10s %14s %14s\n", "seed", "evals", "free in gen", "points", "harmony s", "wall s",
-                "random free", "random harmony");
+                static_cast<unsigned long long>(first_seed),
+                static_cast<unsigned long long>(first_seed) + static_cast<unsigned long long>(runs) - 1);
+    std::printf("  %4s %6s %12s %10s %14s %10s %14s %14s\n", "seed", "evals", "free in gen", "points", "harmony s",
+                "wall s", "random free", "random harmony");
     std::vector<double> generations;
     std::vector<double> harmony;
     int beaten = 0;
@@ -56,8 +57,10 @@ void compare(const TiltCase& problem, int runs, std::uint64_t first_seed) {
         for (const auto& one : random.history) random_free += one.free;
         std::printf("  %4llu %6zu %12s %10zu %14.3f %10.1f %14zu %14.3f\n", static_cast<unsigned long long>(seed),
                     found->evaluations,
-                    found->generations_to_collision_free ? std::to_string(*found->generations_to_collision_free).c_str() : "never",
-                    found->plan.points.size(), found->fitness.harmony_s, seconds, random_free, random.fitness.harmony_s);
+                    found->generations_to_collision_free ? std::to_string(*found->generations_to_collision_free).c_str()
+                                                         : "never",
+                    found->plan.points.size(), found->fitness.harmony_s, seconds, random_free,
+                    random.fitness.harmony_s);
         std::fflush(stdout);
     }
     const auto print = [](const char* name, const std::vector<double>& values) {
@@ -78,8 +81,7 @@ void compare(const TiltCase& problem, int runs, std::uint64_t first_seed) {
 int study(const std::string& file, int samples, int runs) {
     const auto job = cusp::tilt::readTiltJobFile(file);
     if (!job) return std::printf("%s\n", cusp::base::toText(job.error()).c_str()), 1;
-    const auto document =
-        cusp::base::TomlDocument::readFile(CUSP_SOURCE_DIR "/machines/" + job->machine + ".toml");
+    const auto document = cusp::base::TomlDocument::readFile(CUSP_SOURCE_DIR "/machines/" + job->machine + ".toml");
     if (!document) return 1;
     cusp::base::Diagnostics report;
     auto section = cusp::machine::machineSection();
@@ -96,8 +98,8 @@ int study(const std::string& file, int samples, int runs) {
     const TiltOutcome random = cusp::tilt::randomTilt(problem, 1, static_cast<std::size_t>(samples));
     std::size_t free = 0;
     for (const auto& one : random.history) free += one.free;
-    std::printf("  of %d random tilt points %zu are free of collision: %.3f %% (%.1f s, %.1f CPU s, seed 1)\n", samples, free,
-                100.0 * static_cast<double>(free) / samples, since(start), cpuSeconds() - cpu);
+    std::printf("  of %d random tilt points %zu are free of collision: %.3f %% (%.1f s, %.1f CPU s, seed 1)\n", samples,
+                free, 100.0 * static_cast<double>(free) / samples, since(start), cpuSeconds() - cpu);
     std::fflush(stdout);
     if (runs > 0) compare(problem, runs, 1);
     return 0;
@@ -111,7 +113,8 @@ int main(int count, char** arguments) {
     const int runs = count > 3 ? std::atoi(arguments[3]) : 20;
     if (count > 1) return study(arguments[1], samples, runs);
     for (const char* name : {"cavity", "dome"})
-        if (const int code = study(std::string(CUSP_SOURCE_DIR "/examples/tilt/") + name + ".toml", samples, runs); code != 0)
+        if (const int code = study(std::string(CUSP_SOURCE_DIR "/examples/tilt/") + name + ".toml", samples, runs);
+            code != 0)
             return code;
     return 0;
 }

@@ -69,7 +69,8 @@ void planRotary(const MachinePlace& place, const StartPath& path, std::span<cons
 }
 
 /// Positions of all axes; linear ones beyond their travel count as excess.
-std::vector<AxisVector> positions(const MachinePlace& place, std::span<const CutterLocation> poses, AxisMotion& motion) {
+std::vector<AxisVector> positions(const MachinePlace& place, std::span<const CutterLocation> poses,
+                                  AxisMotion& motion) {
     const dynamics::ToolPath chain(*place.machine, place.tool_length_mm, place.origin_mm);
     std::vector<AxisVector> out(poses.size());
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -89,8 +90,8 @@ std::vector<AxisVector> positions(const MachinePlace& place, std::span<const Cut
 }
 
 /// By how much the moves beside a knot must be slowed down for the changes of velocity there.
-double slowing(const AxisLimits& limits, const AxisVector& before, const AxisVector& after, const AxisVector& changed_before,
-               double step_s, AxisVector& changed) {
+double slowing(const AxisLimits& limits, const AxisVector& before, const AxisVector& after,
+               const AxisVector& changed_before, double step_s, AxisVector& changed) {
     double slow = 1.0;
     for (std::size_t k = 0; k < limits.count; ++k) {
         changed[k] = (after[k] - before[k]) / step_s;
@@ -117,8 +118,8 @@ double localTime(const AxisLimits& limits, const StartPath& path, std::span<cons
     AxisVector changed_before{};
     for (std::size_t i = 0; i + 1 < moves; ++i) {
         AxisVector changed{};
-        const double here = slowing(limits, velocity[i], velocity[i + 1], changed_before,
-                                    (seconds[i] + seconds[i + 1]) / 2.0, changed);
+        const double here =
+            slowing(limits, velocity[i], velocity[i + 1], changed_before, (seconds[i] + seconds[i + 1]) / 2.0, changed);
         slow[i] = std::max(slow[i], here);
         slow[i + 1] = std::max(slow[i + 1], here);
         changed_before = changed;
@@ -155,7 +156,8 @@ AxisMotion axisMotion(const MachinePlace& place, const StartPath& path, std::spa
 }
 
 std::optional<double> machiningTime(const MachinePlace& place, const StartPath& path,
-                                    std::span<const CutterLocation> poses, const AxisMotion& motion, double tolerance_mm) {
+                                    std::span<const CutterLocation> poses, const AxisMotion& motion,
+                                    double tolerance_mm) {
     const dynamics::ToolPath chain(*place.machine, place.tool_length_mm, place.origin_mm);
     dynamics::MotionPlanner planner(dynamics::limitsOf(*place.machine), {},
                                     [&chain](const AxisVector& at) { return chain.placeOf(at); });
@@ -165,7 +167,8 @@ std::optional<double> machiningTime(const MachinePlace& place, const StartPath& 
             for (const auto& piece : planner.plan().committed) seconds += piece.law.duration_s;
     };
     for (std::size_t i = 1; i < poses.size(); ++i) {
-        auto block = chain.line({poses[i - 1].tip_mm, motion.rotary_rad[i - 1]}, {poses[i].tip_mm, motion.rotary_rad[i]});
+        auto block =
+            chain.line({poses[i - 1].tip_mm, motion.rotary_rad[i - 1]}, {poses[i].tip_mm, motion.rotary_rad[i]});
         if (!block) return std::nullopt;
         const StartLocation& to = path.locations[i];
         const bool feeds = to.kind == MotionKind::Feed && to.feed_mm_per_s > 0.0;

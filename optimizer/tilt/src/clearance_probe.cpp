@@ -93,7 +93,8 @@ void ClearanceProbe::addFace(double height, double inner_radius, double radius) 
             face.points.push_back({r * std::cos(angle), r * std::sin(angle)});
         }
     }
-    face.area = std::numbers::pi * (radius * radius - inner_radius * inner_radius) / static_cast<double>(face.points.size());
+    face.area =
+        std::numbers::pi * (radius * radius - inner_radius * inner_radius) / static_cast<double>(face.points.size());
     faces_.push_back(std::move(face));
 }
 
@@ -105,7 +106,8 @@ void ClearanceProbe::fill(double cell_mm, double reach_mm) {
     field.box.min().head<2>() -= Eigen::Vector2d::Constant(reach_mm + cell_mm);
     field.cell = cell_mm;
     for (int axis = 0; axis < 3; ++axis)
-        field.count[static_cast<std::size_t>(axis)] = static_cast<int>(std::ceil(field.box.sizes()[axis] / cell_mm)) + 2;
+        field.count[static_cast<std::size_t>(axis)] =
+            static_cast<int>(std::ceil(field.box.sizes()[axis] / cell_mm)) + 2;
     const auto plane = static_cast<std::size_t>(field.count[0]) * static_cast<std::size_t>(field.count[1]);
     field.distance.resize(plane * static_cast<std::size_t>(field.count[2]));
     tbb::parallel_for(0, field.count[2], [&](int k) {
@@ -139,7 +141,8 @@ double ClearanceProbe::distance(const Vector3& point, double wanted, Look look) 
         return static_cast<double>(field.distance[((cell[2] + k) * rows + cell[1] + j) * columns + cell[0] + i]);
     };
     const auto alongX = [&](std::size_t j, std::size_t k) { return std::lerp(at(0, j, k), at(1, j, k), fx); };
-    const double value = std::lerp(std::lerp(alongX(0, 0), alongX(1, 0), fy), std::lerp(alongX(0, 1), alongX(1, 1), fy), fz);
+    const double value =
+        std::lerp(std::lerp(alongX(0, 0), alongX(1, 0), fy), std::lerp(alongX(0, 1), alongX(1, 1), fy), fz);
     // A distance changes by at most the way: interpolated it is off by less than a cell.
     if (std::abs(value - wanted) > field.cell) return value;
     if (look == Look::Sure) return std::max(value, wanted);

@@ -62,17 +62,17 @@ void checkFeature(const PartFeature& feature, const base::TomlNode& node, base::
         wrong("corner_radius_mm", fmt::format("it is {} mm; at most half the smaller width, {} mm, is possible",
                                               feature.corner_radius_mm, narrow / 2.0));
     if (isUpright(feature)) wrong("draft_deg", "the walls must lean back by at least 0.06°");
-    if (feature.crown_radius_mm &&
-        *feature.crown_radius_mm < std::hypot(feature.size_mm[0], feature.size_mm[1]) / 2.0)
-        wrong("crown_radius_mm", fmt::format("it is {} mm; the sphere must reach over the whole outline: at least {:g} mm",
-                                             *feature.crown_radius_mm,
-                                             std::hypot(feature.size_mm[0], feature.size_mm[1]) / 2.0));
+    if (feature.crown_radius_mm && *feature.crown_radius_mm < std::hypot(feature.size_mm[0], feature.size_mm[1]) / 2.0)
+        wrong("crown_radius_mm",
+              fmt::format("it is {} mm; the sphere must reach over the whole outline: at least {:g} mm",
+                          *feature.crown_radius_mm, std::hypot(feature.size_mm[0], feature.size_mm[1]) / 2.0));
 }
 
 void checkPart(const PartShape& part, const base::TomlNode& node, base::Diagnostics& report) {
     const bool block = part.min_mm && part.max_mm;
     if (part.file ? part.min_mm || part.max_mm || !part.features.empty() : !block) {
-        report.error("tilt.part", "a part is either a file, or a block (min_mm and max_mm) with features", node.where());
+        report.error("tilt.part", "a part is either a file, or a block (min_mm and max_mm) with features",
+                     node.where());
         return;
     }
     if (!block) return;
@@ -80,20 +80,22 @@ void checkPart(const PartShape& part, const base::TomlNode& node, base::Diagnost
     for (std::size_t k = 0; k < 3; ++k) {
         if ((*part.min_mm)[k] >= (*part.max_mm)[k])
             report.error("tilt.part",
-                         fmt::format("min_mm {} must lie below max_mm {} along {}", (*part.min_mm)[k], (*part.max_mm)[k],
-                                     "XYZ"[k]),
+                         fmt::format("min_mm {} must lie below max_mm {} along {}", (*part.min_mm)[k],
+                                     (*part.max_mm)[k], "XYZ"[k]),
                          node.where());
         if (k < 2) vertices *= ((*part.max_mm)[k] - (*part.min_mm)[k]) / part.spacing_mm + 1.0;
     }
     if (vertices > static_cast<double>(most_vertices))
-        report.error("tilt.part", fmt::format("spacing_mm {} would need more than 20 million vertices", part.spacing_mm),
+        report.error("tilt.part",
+                     fmt::format("spacing_mm {} would need more than 20 million vertices", part.spacing_mm),
                      node.where());
     for (const PartFeature& feature : part.features)
         if (feature.level_mm <= (*part.min_mm)[2] || feature.level_mm > (*part.max_mm)[2])
-            report.error("tilt.part",
-                         fmt::format("a feature's level_mm is {}; it must lie within the block, above {} and up to {} mm",
-                                     feature.level_mm, (*part.min_mm)[2], (*part.max_mm)[2]),
-                         node.where());
+            report.error(
+                "tilt.part",
+                fmt::format("a feature's level_mm is {}; it must lie within the block, above {} and up to {} mm",
+                            feature.level_mm, (*part.min_mm)[2], (*part.max_mm)[2]),
+                node.where());
 }
 
 }  // namespace
@@ -110,8 +112,8 @@ double PartShape::height(double x_mm, double y_mm) const {
         }
         const double rise = wallRise(-outside, feature.draft_rad, feature.fillet_mm);
         if (rise > 0.0)
-            z = std::max(z, std::min(feature.foot_mm.value_or(face) + rise,
-                                     feature.level_mm - crown(feature, x_mm, y_mm)));
+            z = std::max(
+                z, std::min(feature.foot_mm.value_or(face) + rise, feature.level_mm - crown(feature, x_mm, y_mm)));
     }
     return std::max(z, (*min_mm)[2] + spacing_mm);
 }
@@ -120,7 +122,8 @@ TriangleMesh partMesh(const PartShape& part) {
     const auto& low = *part.min_mm;
     const auto& high = *part.max_mm;
     const auto cells = [&](std::size_t k) {
-        return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround((high[k] - low[k]) / part.spacing_mm)));
+        return std::max<std::uint32_t>(1,
+                                       static_cast<std::uint32_t>(std::lround((high[k] - low[k]) / part.spacing_mm)));
     };
     const std::uint32_t columns = cells(0) + 1;
     const std::uint32_t rows = cells(1) + 1;
@@ -172,7 +175,8 @@ const base::Section<PartShape>& partSection() {
             .field("corner_radius_mm", &Feature::corner_radius_mm,
                    "Of the outline; half the smaller width makes it round.", not_negative)
             .field("turn_deg", &Feature::turn_rad, "Of the outline about Z.")
-            .field("level_mm", &Feature::level_mm, "Z of the floor of a pocket, of the top of a boss.", base::required())
+            .field("level_mm", &Feature::level_mm, "Z of the floor of a pocket, of the top of a boss.",
+                   base::required())
             .field("foot_mm", &Feature::foot_mm, "Z of the ground a boss stands on; absent: the face of the block.")
             .field("draft_deg", &Feature::draft_rad, "Of the walls against Z; they lean back.", lean)
             .field("fillet_mm", &Feature::fillet_mm, "Radius of the fillet along the foot.", not_negative)
@@ -185,7 +189,8 @@ const base::Section<PartShape>& partSection() {
             .field("file", &PartShape::file, "STL or PLY mesh, STEP, IGES or surface file; relative to the job file.")
             .field("min_mm", &PartShape::min_mm, "Lower corner of a block.")
             .field("max_mm", &PartShape::max_mm, "Upper corner of it.")
-            .field("face_mm", &PartShape::face_mm, "Z of the face that features are cut into; absent: the upper corner's.")
+            .field("face_mm", &PartShape::face_mm,
+                   "Z of the face that features are cut into; absent: the upper corner's.")
             .field("spacing_mm", &PartShape::spacing_mm, "Of the mesh made of the block.", above_zero)
             .tables("feature", &PartShape::features, feature)
             .check(checkPart);

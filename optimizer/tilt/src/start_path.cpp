@@ -40,11 +40,11 @@ private:
         // The chords are those of the simulation: one way to cut an arc into pieces.
         base::Diagnostics report;
         simulation::PathCollector collector(file_, options_.chord_tolerance_mm, report);
-        collector.take({toolpath::ToolCall{1, "arc", geometry::Cutter{1.0, 0.5, 0.0, 0.5, 0.0, 0.0, 1.0}}, record.line});
+        collector.take(
+            {toolpath::ToolCall{1, "arc", geometry::Cutter{1.0, 0.5, 0.0, 0.5, 0.0, 0.0, 1.0}}, record.line});
         collector.take({LinearMotion{path_.locations.back().location, MotionKind::Feed}, record.line});
         collector.take({arc, record.line});
-        for (const simulation::ToolMove& move : collector.finish().moves)
-            go({move.to, MotionKind::Feed}, record.line);
+        for (const simulation::ToolMove& move : collector.finish().moves) go({move.to, MotionKind::Feed}, record.line);
     }
     void see(const toolpath::FeedRate& feed, const ClRecord& record) {
         feed_ = feed;
@@ -56,7 +56,8 @@ private:
         path_.records.push_back(record);
     }
     void see(const toolpath::ToolCall& tool, const ClRecord& record) {
-        if (std::exchange(has_tool_, true)) return refuse(record, "a second tool; give each tool's path a job of its own");
+        if (std::exchange(has_tool_, true))
+            return refuse(record, "a second tool; give each tool's path a job of its own");
         ClRecord written = record;
         if (tool.cutter) cutter_ = tool.cutter;
         std::get<toolpath::ToolCall>(written.statement).cutter = cutter_;
@@ -83,12 +84,13 @@ private:
         path_.records.push_back({motion, line});
     }
     /// The axis of a three-axis path stands still.
-    void divide(const toolpath::CutterLocation from, const toolpath::CutterLocation& to, std::uint32_t line, double feed) {
+    void divide(const toolpath::CutterLocation from, const toolpath::CutterLocation& to, std::uint32_t line,
+                double feed) {
         const double length = (to.tip_mm - from.tip_mm).norm();
         const auto parts = static_cast<int>(std::ceil(length / options_.longest_cut_mm));
         for (int k = 1; k < parts; ++k) {
-            const toolpath::CutterLocation at{from.tip_mm + (to.tip_mm - from.tip_mm) * (static_cast<double>(k) / parts),
-                                              from.axis};
+            const toolpath::CutterLocation at{
+                from.tip_mm + (to.tip_mm - from.tip_mm) * (static_cast<double>(k) / parts), from.axis};
             path_.locations.push_back({at, MotionKind::Feed, line, feed, 0.0, {}});
             path_.records.push_back({LinearMotion{at, MotionKind::Feed}, line});
         }

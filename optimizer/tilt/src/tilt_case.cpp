@@ -154,7 +154,9 @@ base::Result<simulation::CollisionVolume> TiltCase::collisions(const std::vector
 std::optional<double> TiltCase::shortestStickOut(const std::vector<CutterLocation>& poses, double step_mm) const {
     std::optional<double> shortest;
     for (double stick_out = job_.tool.stickOutMm(); stick_out > job_.tool.cutting_height_mm; stick_out -= step_mm) {
-        if (detail::ClearanceProbe(*probe_, job_.tool, stick_out).overlap(poses, detail::ClearanceProbe::Look::Exact) > 0.0) break;
+        if (detail::ClearanceProbe(*probe_, job_.tool, stick_out).overlap(poses, detail::ClearanceProbe::Look::Exact) >
+            0.0)
+            break;
         shortest = stick_out;
     }
     return shortest;

@@ -27,25 +27,28 @@ base::Location at(const TomlNode& table, std::string_view key) {
 
 void checkTool(const TiltTool& tool, const TomlNode& node, Diagnostics& report) {
     if (tool.cutting_height_mm < tool.diameter_mm / 2.0)
-        report.error("tilt.tool",
-                     fmt::format("the ball of {:g} mm diameter is not whole: its cutting height must be at least {:g} mm",
-                                 tool.diameter_mm, tool.diameter_mm / 2.0),
-                     at(node, "cutting_height_mm"));
+        report.error(
+            "tilt.tool",
+            fmt::format("the ball of {:g} mm diameter is not whole: its cutting height must be at least {:g} mm",
+                        tool.diameter_mm, tool.diameter_mm / 2.0),
+            at(node, "cutting_height_mm"));
     for (const auto& [key, rings] : {std::pair{"shank_mm", &tool.shank_mm}, std::pair{"holder_mm", &tool.holder_mm}})
         for (std::size_t i = 0; i < rings->size(); ++i)
             if ((*rings)[i][0] <= 0.0 || (*rings)[i][1] <= 0.0 || (*rings)[i][2] <= 0.0)
                 report.error("tilt.tool", fmt::format("ring {}: height and diameters must be above 0", i + 1),
                              at(node, key));
     if (tool.shank_mm.empty() && tool.holder_mm.empty())
-        report.error("tilt.tool", "without shank and holder nothing of the tool can collide; give shank_mm or holder_mm",
+        report.error("tilt.tool",
+                     "without shank and holder nothing of the tool can collide; give shank_mm or holder_mm",
                      node.where());
 }
 
 void checkSearch(const TiltSearch& search, const TomlNode& node, Diagnostics& report) {
     if (search.survivors > search.offspring)
-        report.error("tilt.search",
-                     fmt::format("survivors is {}; at most offspring, {}, can survive", search.survivors, search.offspring),
-                     at(node, "survivors"));
+        report.error(
+            "tilt.search",
+            fmt::format("survivors is {}; at most offspring, {}, can survive", search.survivors, search.offspring),
+            at(node, "survivors"));
     if (search.fine_mm > search.coarse_mm)
         report.error("tilt.search",
                      fmt::format("fine_mm is {}; it must not be above coarse_mm, {}", search.fine_mm, search.coarse_mm),
@@ -59,7 +62,8 @@ void checkSearch(const TiltSearch& search, const TomlNode& node, Diagnostics& re
 void checkJob(const TiltJob& job, const TomlNode& root, Diagnostics& report) {
     if (job.schema != 1)
         report.error("tilt.schema-version",
-                     fmt::format("schema {} is not known; this version reads schema 1", job.schema), at(root, "schema"));
+                     fmt::format("schema {} is not known; this version reads schema 1", job.schema),
+                     at(root, "schema"));
     if (job.cl_file.has_value() == job.path.has_value())
         report.error("tilt.path", "give either cl_file, a three-axis path, or [path], how to make one", root.where());
 }

@@ -33,7 +33,8 @@ bool isBetter(const TiltFitness& a, const TiltFitness& b) {
 TiltPlan planOf(const TiltCase& problem, const Values& values) {
     TiltPlan plan;
     plan.area = problem.job().area;
-    for (std::size_t i = 0; i + 2 < values.size(); i += 3) plan.points.emplace_back(values[i], values[i + 1], values[i + 2]);
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+        plan.points.emplace_back(values[i], values[i + 1], values[i + 2]);
     return plan;
 }
 
@@ -58,7 +59,8 @@ public:
         if (candidates.empty()) return;
         if (generation_ == 0)
             for (const TiltFitness& one : candidates)
-                if (std::isfinite(one.collision_volume_mm3)) scale_mm3_ = std::max(scale_mm3_, one.collision_volume_mm3);
+                if (std::isfinite(one.collision_volume_mm3))
+                    scale_mm3_ = std::max(scale_mm3_, one.collision_volume_mm3);
         TiltGeneration record;
         record.points = points_;
         record.generation = generation_++;
@@ -182,7 +184,8 @@ TiltOutcome randomTilt(const TiltCase& problem, std::uint64_t seed, std::size_t 
 }
 
 std::string convergenceCsv(const std::vector<std::pair<std::uint64_t, TiltOutcome>>& runs) {
-    std::string out = "run,seed,points,generation,best,mean,worst,evaluations,free,range_excess,collision_volume_mm3,harmony_s\n";
+    std::string out =
+        "run,seed,points,generation,best,mean,worst,evaluations,free,range_excess,collision_volume_mm3,harmony_s\n";
     for (std::size_t run = 0; run < runs.size(); ++run)
         for (const TiltGeneration& one : runs[run].second.history) {
             out += fmt::format("{},{},{},{},{},{},{},{},{}", run + 1, runs[run].first, one.points, one.generation,

@@ -16,7 +16,8 @@ namespace cusp::tilt {
 struct MachinePlace {
     const kinematics::Machine* machine = nullptr;
     double tool_length_mm = 100.0;  ///< gauge point to tip
-    geometry::Vector3 origin_mm = geometry::Vector3::Zero();  ///< of the part's frame in the machine frame, all axes at zero
+    geometry::Vector3 origin_mm =
+        geometry::Vector3::Zero();  ///< of the part's frame in the machine frame, all axes at zero
 };
 
 struct AxisMotion {
@@ -24,9 +25,9 @@ struct AxisMotion {
     /// locations. 0: within the machine's range.
     double range_excess = 0.0;
     std::size_t locations_beyond = 0;
-    std::size_t rewinds = 0;                  ///< times a limit would force the tool off the part to unwind
+    std::size_t rewinds = 0;                    ///< times a limit would force the tool off the part to unwind
     std::array<double, 2> rotary_travel_rad{};  ///< of each rotary axis, in chain order
-    double time_s = 0.0;                      ///< see `axisMotion`
+    double time_s = 0.0;                        ///< see `axisMotion`
     /// Seconds: `time_s`, and what the rotary axes would take for their travel alone at full speed, one after the other. The
     /// smaller, the more harmonious the movement (the paper's third fitness).
     double harmony_s = 0.0;

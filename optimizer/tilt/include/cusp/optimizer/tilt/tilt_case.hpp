@@ -53,10 +53,9 @@ public:
     /// `folder`: of the job file, for the files it names. `loader` may be empty: then only meshes are read.
     /// Errors: those of the part's and path's readers; `tilt.open-mesh`, `tilt.part-format`, `tilt.no-path`,
     /// `tilt.not-a-ball`, `simulation.*` (memory, resolution).
-    [[nodiscard]] static base::Result<std::unique_ptr<TiltCase>> make(const TiltJob& job, const kinematics::Machine& machine,
-                                                                      const std::string& folder,
-                                                                      base::Diagnostics& report,
-                                                                      const ShapeLoader& loader = {});
+    [[nodiscard]] static base::Result<std::unique_ptr<TiltCase>>
+    make(const TiltJob& job, const kinematics::Machine& machine, const std::string& folder, base::Diagnostics& report,
+         const ShapeLoader& loader = {});
     TiltCase(const TiltCase&) = delete;
     TiltCase& operator=(const TiltCase&) = delete;
     ~TiltCase();
@@ -75,12 +74,12 @@ public:
 
     /// The simulation's answer: all moves of the path, and all the motion between its places, against the part at
     /// `resolution_mm`, with the holder beginning at `stick_out_mm`.
-    [[nodiscard]] base::Result<simulation::CollisionVolume> collisions(const std::vector<toolpath::CutterLocation>& poses,
-                                                                       double resolution_mm, double stick_out_mm) const;
+    [[nodiscard]] base::Result<simulation::CollisionVolume>
+    collisions(const std::vector<toolpath::CutterLocation>& poses, double resolution_mm, double stick_out_mm) const;
     /// The shortest stick-out, in steps of `step_mm` below the tool's own, with which the path stays free; empty where it is
     /// not free with the tool's own.
     [[nodiscard]] std::optional<double> shortestStickOut(const std::vector<toolpath::CutterLocation>& poses,
-                                                                       double step_mm) const;
+                                                         double step_mm) const;
 
 private:
     TiltCase(TiltJob job, const kinematics::Machine& machine);

@@ -85,8 +85,8 @@ struct StartOptions {
 /// Errors, with the CL line: `tilt.not-a-ball` (only a ball end mill leaves the same surface when it is tilted; 2.),
 /// `tilt.motion` (drilling cycles, splines, homing, work planes, frames other than the part's, more than one tool),
 /// `tilt.no-path`.
-[[nodiscard]] base::Result<StartPath> startPath(const std::vector<toolpath::ClRecord>& records,
-                                                const std::string& file, const StartOptions& options = {});
+[[nodiscard]] base::Result<StartPath> startPath(const std::vector<toolpath::ClRecord>& records, const std::string& file,
+                                                const StartOptions& options = {});
 
 /// How far the ball's centre leaves the way it has in the starting path, at most, over all moves of the tilted one: R·θ²/8
 /// with θ the turn of the axis in the move; mm.
