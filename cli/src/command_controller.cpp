@@ -3,15 +3,18 @@
 // `cusp controller`: a virtual 840D-like control behind the links, or a program run on it in virtual time.
 #include "command.hpp"
 #include "console.hpp"
+#include "control_monitor.hpp"
 #include "control_panel.hpp"
 #include "input.hpp"
 #include "machine_lookup.hpp"
+#include "received_ledger.hpp"
 #include "setup_lookup.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/json_report.hpp>
 #include <cusp/base/units.hpp>
 #include <cusp/comm/controller/control_station.hpp>
+#include <cusp/comm/controller/shdr_adapter.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -39,6 +42,10 @@ struct Flags {
     std::vector<std::string> allowed;
     std::vector<double> wcs_origin_mm;
     std::string setup;
+    std::string monitor;
+    std::string shdr;
+    std::string ledger;
+    bool monitor_commands = false;
     double tool_length_mm = 100.0;
     double lift_mm = 2.0;
     double fifo_kb = 30.0;
@@ -139,20 +146,74 @@ ExitCode runProgram(const Flags& flags, comm::VirtualControl& control) {
     return control.status().finished ? ExitCode::Done : ExitCode::FoundSomething;
 }
 
-ExitCode serve(const Flags& flags, comm::VirtualControl& control) {
+/// What watches the control beside its operator, each where asked for.
+struct Watchers {
+    std::unique_ptr<ControlMonitor> monitor;
+    std::optional<comm::ShdrAdapter> shdr;
+    std::optional<ReceivedLedger> ledger;
+
+    [[nodiscard]] base::Result<void> step(const comm::ControlStation& station, const comm::ControlStatus& status) {
+        if (ledger) {
+            const auto changed = ledger->follow(station);
+            if (!changed) return base::fail(changed.error());
+            if (*changed && monitor) monitor->showLedger(ledger->ledger());
+        }
+        if (shdr) shdr->step(status);
+        if (monitor) monitor->step();
+        return {};
+    }
+};
+
+base::Result<Watchers> openWatchers(const Flags& flags, const LoadedMachine& machine, comm::ControlStation& station,
+                                    ControlMonitorOptions page) {
+    Watchers out;
+    if (!flags.shdr.empty()) {
+        auto adapter = comm::ShdrAdapter::listen(flags.shdr, machine.model, page.listen);
+        if (!adapter) return base::fail(adapter.error());
+        sayNow("MTConnect adapter on " + adapter->name() + "\n");
+        out.shdr.emplace(*std::move(adapter));
+    }
+    if (!flags.ledger.empty()) {
+        auto ledger = ReceivedLedger::open(flags.ledger, machine.file.machine.name);
+        if (!ledger) return base::fail(ledger.error());
+        out.ledger.emplace(*std::move(ledger));
+    }
+    if (flags.monitor.empty()) return out;
+    page.place = flags.monitor;
+    page.commands = flags.monitor_commands;
+    auto monitor = ControlMonitor::open(station, machine.file, machine.model, std::move(page));
+    if (!monitor) return base::fail(monitor.error());
+    out.monitor = *std::move(monitor);
+    if (out.ledger) out.monitor->showLedger(out.ledger->ledger());
+    sayNow("monitor page at " + out.monitor->url() + "\n");
+    return out;
+}
+
+ExitCode serve(const Flags& flags, const LoadedMachine& machine, comm::VirtualControl& control,
+               const comm::ControlOptions& control_options) {
     comm::StationOptions options;
     options.host.store_folder = flags.store;
     options.listen = {.beyond_loopback = flags.beyond_loopback, .allowed = flags.allowed};
     comm::ControlStation station(control, options);
+    ControlMonitorOptions page;
+    page.listen = options.listen;
+    page.title = "Virtual control";
+    page.setup = control_options.setup;
+    page.tool_length_mm = control_options.tool_length_mm;
+    page.wcs_origin_mm = control_options.wcs_origin_mm;
     for (const std::string& url : flags.listen) {
         const auto name = station.listen(url);
         if (!name) return failWith(name.error());
-        say("listening on " + *name + "\n");
+        sayNow("listening on " + *name + "\n");
+        page.links.push_back(*name);
     }
+    auto watchers = openWatchers(flags, machine, station, std::move(page));
+    if (!watchers) return failWith(watchers.error());
     ControlPanel panel(station);
     const double begin_s = comm::transferClockSeconds();
     while (!interrupted()) {
         if (const auto done = station.step(look_s); !done) return failWith(done.error());
+        if (const auto done = watchers->step(station, control.status()); !done) return failWith(done.error());
         const double now_s = comm::transferClockSeconds();
         panel.tellChanges();
         if (!panel.listen(now_s)) return ExitCode::Done;
@@ -185,7 +246,7 @@ ExitCode runController(const Flags& flags) {
         record.emplace(*std::move(target), machine->model);
         control.record([&record](const comm::ControlSample& sample) { record->add(sample); });
     }
-    const ExitCode code = flags.run.empty() ? serve(flags, control) : runProgram(flags, control);
+    const ExitCode code = flags.run.empty() ? serve(flags, *machine, control, options) : runProgram(flags, control);
     if (record)
         if (const auto done = record->commit(); !done) return failWith(done.error());
     return code;
@@ -204,6 +265,21 @@ void addControllerCommand(CLI::App& app, Action& action) {
     CLI::Option* run = controller->add_option("--run", flags->run, "Runs this program in virtual time, and ends.");
     run->excludes(listen);
     controller->add_option("--store", flags->store, "Folder in which every accepted program is kept as NAME.MPF.")
+        ->needs(listen);
+    controller
+        ->add_option("--ledger", flags->ledger,
+                     "SQLite file that records every transfer and what became of its program.")
+        ->needs(listen);
+    CLI::Option* monitor = controller
+                               ->add_option("--monitor", flags->monitor,
+                                            "Serves a page to watch the control at HOST:PORT (port 0: a free one).")
+                               ->needs(listen);
+    controller
+        ->add_flag("--monitor-commands", flags->monitor_commands,
+                   "Whoever opens the page by the address that is said may stop, reset and override; never start.")
+        ->needs(monitor);
+    controller
+        ->add_option("--shdr", flags->shdr, "Serves status to MTConnect agents (SHDR) at HOST:PORT, usually port 7878.")
         ->needs(listen);
     controller->add_option("--record", flags->record, "CSV of every sample of the axes and of the tool.");
     controller->add_flag("--beyond-loopback", flags->beyond_loopback, "Listens on other addresses than loopback.");

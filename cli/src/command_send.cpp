@@ -6,7 +6,9 @@
 #include "input.hpp"
 #include "machine_lookup.hpp"
 #include "program_demand.hpp"
+#include "program_resume.hpp"
 #include "send_delivery.hpp"
+#include "setup_lookup.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 
@@ -23,8 +25,30 @@ namespace {
 constexpr std::size_t most_program_bytes = std::size_t{256} << 20U;
 constexpr std::size_t most_key_bytes = 4096;
 
+base::Result<comm::ResumePreamble> computedPreamble(const SendFlags& flags, const std::string& text) {
+    const auto machine = loadMachine(flags.machine);
+    if (!machine) return base::fail(machine.error());
+    ResumeOptions options;
+    options.block = *flags.resume_block;
+    options.back_up_blocks = flags.back_up_blocks;
+    options.approach_mm = flags.approach_mm;
+    std::optional<machine::SetupDefinition> setup;
+    if (!flags.setup.empty()) {
+        auto read = loadSetup(flags.setup);
+        if (!read) return base::fail(std::move(read).error());
+        setup = *std::move(read);
+        options.setup.definition = &*setup;
+    }
+    return resumePreamble(text, flags.program, machine->file, options);
+}
+
 base::Result<comm::Program> resumed(const SendFlags& flags, comm::Program program) {
     if (!flags.resume_block) return program;
+    if (flags.preamble.empty()) {
+        auto computed = computedPreamble(flags, program.text);
+        if (!computed) return base::fail(std::move(computed).error());
+        return comm::resumedProgram(program, *computed);
+    }
     const auto from = byteOfBlock(program.text, *flags.resume_block);
     if (!from)
         return base::fail("send.no-block", fmt::format("has no block N{}", *flags.resume_block),
@@ -100,7 +124,9 @@ ExitCode runSend(const SendFlags& flags) {
 std::string contradiction(const SendFlags& flags) {
     if (flags.program.empty() == flags.fetch.empty()) return "give either a program to send or --fetch NAME";
     if (!flags.fetch.empty() && flags.output.empty()) return "--fetch needs -o FILE";
-    if (flags.resume_block.has_value() != !flags.preamble.empty()) return "--resume-block and --preamble go together";
+    if (!flags.resume_block && !flags.preamble.empty()) return "--preamble goes with --resume-block";
+    if (flags.resume_block && flags.preamble.empty() && flags.machine.empty())
+        return "--resume-block needs the machine file (-m), or a preamble of your own (--preamble)";
     return "";
 }
 
@@ -125,8 +151,16 @@ void addSendCommand(CLI::App& app, Action& action) {
     send->add_flag("--arm", flags->arm, "Make it ready for the start at the control.");
     send->add_flag("--start", flags->start, "Ask for the start; the operator must have enabled that at the control.");
     send->add_option("--key-file", flags->key_file, "Key the control demands of what is committed.");
-    send->add_option("--resume-block", flags->resume_block, "Send the rest from the block with this N word on.");
-    send->add_option("--preamble", flags->preamble, "What rebuilds the modal state before that block.");
+    send->add_option(
+        "--resume-block", flags->resume_block,
+        "Send the rest from the block with this N word on, behind a preamble that rebuilds tool, state and place; "
+        "computed with -m, and proved by reading it back.");
+    send->add_option("--back-up-blocks", flags->back_up_blocks, "With it, blocks before that are run again (3).")
+        ->check(CLI::Range(0, 1000));
+    send->add_option("--approach-mm", flags->approach_mm, "With it, distance above the place along the tool axis (10).")
+        ->check(CLI::NonNegativeNumber);
+    send->add_option("--preamble", flags->preamble,
+                     "File with what comes before that block instead of what is computed.");
     send->add_flag("--plain", flags->plain,
                    "No protocol: bare text held by XON/XOFF, for controls that speak nothing else.");
     send->add_option("--eol", flags->line_end, "With --plain, line ends.")
@@ -138,6 +172,9 @@ void addSendCommand(CLI::App& app, Action& action) {
     send->add_option("--control", flags->control_label, "Which machine it goes to, for the ledger.");
     send->add_option("--ledger", flags->ledger, "Ledger of transfers; in the user's state folder when left out.");
     send->add_flag("--no-ledger", flags->no_ledger, "Keep no record.");
+    send->add_option("--monitor", flags->monitor,
+                     "Serves a page to watch the transfer at HOST:PORT of this machine (port 0: a free one).");
+    send->add_option("--setup", flags->setup, "Setup file: where the work offsets lie and how long the tools are.");
     send->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
     send->callback([flags, &action] {
         if (const std::string wrong = contradiction(*flags); !wrong.empty()) throw CLI::ValidationError(wrong);

@@ -9,6 +9,7 @@
 
 #include <cusp/base/json_report.hpp>
 #include <cusp/base/units.hpp>
+#include <cusp/post/verify/execution.hpp>
 #include <cusp/post/verify/verify_program.hpp>
 
 #include <fmt/format.h>
@@ -22,6 +23,8 @@ namespace cusp::cli {
 
 namespace {
 
+using post::verify::ExecutedExtreme;
+using post::verify::ExecutionReport;
 using post::verify::Extreme;
 using post::verify::VerifyReport;
 
@@ -39,6 +42,8 @@ struct Flags {
     std::optional<double> tool_length_mm;
     std::vector<double> wcs_origin_mm;
     std::string setup;
+    std::string record;
+    std::optional<double> execution_tolerance_mm;
     int cutting_edge = 1;
     bool fixed_tool_length_axis = false;
     bool strict = false;
@@ -51,6 +56,28 @@ base::Json toJson(const Extreme& extreme, double per_unit) {
     out["program_line"] = extreme.program_line;
     if (extreme.block_number) out["block_number"] = *extreme.block_number;
     out["cl_line"] = extreme.cl_line;
+    return out;
+}
+
+base::Json toJson(const ExecutedExtreme& extreme, double per_unit) {
+    return {{"value", extreme.value * per_unit}, {"time_s", extreme.time_s}, {"program_line", extreme.line}};
+}
+
+base::Json toJson(const Flags& flags, const ExecutionReport& report) {
+    const double deg = base::degFromRad(1.0);
+    base::Json out;
+    out["record"] = flags.record;
+    out["pass"] = report.pass;
+    out["samples"] = report.samples;
+    out["compared"] = report.compared;
+    out["cutting"] = report.cutting;
+    out["points"] = report.points;
+    out["unreached"] = report.unreached;
+    out["rms_tip_mm"] = report.rms_tip_mm;
+    out["max_tip_mm"] = toJson(report.max_tip_mm, 1.0);
+    out["max_axis_deg"] = toJson(report.max_axis_rad, deg);
+    out["max_tip_rapid_mm"] = toJson(report.max_tip_rapid_mm, 1.0);
+    out["diagnostics"] = base::diagnosticsToJson(report.findings);
     return out;
 }
 
@@ -107,6 +134,27 @@ base::Result<std::optional<machine::SetupDefinition>> readSetup(const Flags& fla
     return std::optional<machine::SetupDefinition>(*std::move(setup));
 }
 
+/// The run of the program against the program, when there is a record of it.
+base::Result<std::optional<ExecutionReport>> compareRecord(const Flags& flags, const post::MachineFile& machine,
+                                                           const post::verify::VerifyOptions& verifying) {
+    if (flags.record.empty()) return std::optional<ExecutionReport>();
+    auto table = TextInput::open(flags.record);
+    if (!table) return base::fail(std::move(table).error());
+    const auto samples = post::verify::readExecutionRecord(table->stream(), table->name());
+    if (!samples) return base::fail(samples.error());
+    auto program = TextInput::open(flags.program);
+    if (!program) return base::fail(std::move(program).error());
+    post::verify::ExecutionOptions options;
+    options.tip_tolerance_mm =
+        flags.execution_tolerance_mm.value_or(machine.control.cycle832_tolerance_mm + flags.tip_tolerance_mm);
+    options.tool_length_mm = verifying.tool_length_mm;
+    options.wcs_origin_mm = verifying.wcs_origin_mm;
+    options.setup = verifying.setup;
+    auto report = post::verify::compareExecution(program->stream(), program->name(), machine, *samples, options);
+    if (!report) return base::fail(std::move(report).error());
+    return std::optional<ExecutionReport>(*std::move(report));
+}
+
 ExitCode runVerify(const Flags& flags) {
     auto machine = loadMachine(flags.machine);
     if (!machine) return failWith(machine.error());
@@ -135,13 +183,21 @@ ExitCode runVerify(const Flags& flags) {
                                                     *against ? &**against : nullptr, options);
     if (!report) return failWith(report.error());
     tell(report->findings);
-    if (flags.json)
-        sayJson(toJson(flags, *report));
-    else
+    const auto execution = compareRecord(flags, machine->file, options);
+    if (!execution) return failWith(execution.error());
+    if (*execution) tell((*execution)->findings);
+    const bool pass = report->pass && (!*execution || (*execution)->pass);
+    if (flags.json) {
+        base::Json json = toJson(flags, *report);
+        json["pass"] = pass;
+        json["execution"] = *execution ? toJson(flags, **execution) : base::Json();
+        sayJson(json);
+    } else
         say(fmt::format("{} on {}{}\n", fileNameOf(flags.program), machine->file.machine.name,
                         flags.against.empty() ? "" : ", against " + fileNameOf(flags.against)) +
-            (machine->unanchored() ? unanchored_text : "") + post::verify::toText(*report));
-    return report->pass ? ExitCode::Done : ExitCode::FoundSomething;
+            (machine->unanchored() ? unanchored_text : "") + post::verify::toText(*report) +
+            (*execution ? post::verify::toText(**execution) : ""));
+    return pass ? ExitCode::Done : ExitCode::FoundSomething;
 }
 
 }  // namespace
@@ -191,6 +247,14 @@ void addVerifyCommand(CLI::App& app, Action& action) {
         ->expected(3);
     verify->add_option("--setup", flags->setup,
                        "Setup file: where the work offsets lie and how long the tools are; checks linear travel too.");
+    verify->add_option("--record", flags->record,
+                       "What the tool really did (cusp controller --record): compared with the program as well.");
+    verify
+        ->add_option(
+            "--execution-tolerance-mm", flags->execution_tolerance_mm,
+            "Allowed distance of the executed tip from the programmed path; the machine file's CYCLE832 tolerance "
+            "and --tip-tolerance-mm together when left out.")
+        ->check(CLI::PositiveNumber);
     verify->add_option("--cutting-edge", flags->cutting_edge, "D the cuts must run with.")
         ->capture_default_str()
         ->check(CLI::Range(1, 9999));
@@ -199,7 +263,12 @@ void addVerifyCommand(CLI::App& app, Action& action) {
         "The tool length acts along the spindle in every plane (SD42940), so G18 and G19 may stand in cuts.");
     verify->add_flag("--strict", flags->strict, "Words whose meaning is the machine builder's are errors.");
     verify->add_flag("--json", flags->json, "One machine-readable summary on stdout.");
-    verify->callback([flags, &action] { action = [flags] { return runVerify(*flags); }; });
+    verify->callback([flags, &action] {
+        if (flags->program == "-" && !flags->record.empty())
+            throw CLI::ValidationError("--record",
+                                       "reads the program twice, so that it cannot come from standard input");
+        action = [flags] { return runVerify(*flags); };
+    });
 }
 
 }  // namespace cusp::cli

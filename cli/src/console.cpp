@@ -31,6 +31,11 @@ void tell(const base::Diagnostics& diagnostics) {
 
 void say(std::string_view text) { put(stdout, text); }
 
+void sayNow(std::string_view text) {
+    say(text);
+    std::fflush(stdout);
+}
+
 void sayJson(const base::Json& summary) {
     const auto text = base::jsonText(summary);
     if (!text) throw std::logic_error(base::toText(text.error()));

@@ -18,6 +18,9 @@ void tell(const base::Diagnostics& diagnostics);
 /// Writes to stdout.
 void say(std::string_view text);
 
+/// The same, and at once: for those who wait for the line.
+void sayNow(std::string_view text);
+
 /// Writes a `--json` summary to stdout. A number that is not finite is our own mistake and ends the command (exit 5).
 void sayJson(const base::Json& summary);
 

@@ -21,11 +21,6 @@ constexpr std::string_view commands =
     "start, stop, reset, enable SECONDS, override PERCENT, single on|off, optional on|off, search LINE, status, quit\n";
 constexpr std::size_t longest_line = 256;
 
-void sayNow(std::string_view text) {
-    say(text);
-    std::fflush(stdout);
-}
-
 }  // namespace
 
 bool ControlPanel::listen(double now_s) {

@@ -5,6 +5,7 @@
 
 #include "console.hpp"
 #include "progress_bar.hpp"
+#include "send_monitor.hpp"
 #include "send_record.hpp"
 
 #include <cusp/base/atomic_file.hpp>
@@ -37,15 +38,6 @@ private:
     std::uint64_t done_ = 0;
     std::uint64_t total_ = 0;
 };
-
-std::string_view wordFor(comm::TransferEnd end) {
-    switch (end) {
-        case comm::TransferEnd::Delivered: return "delivered";
-        case comm::TransferEnd::Refused: return "refused";
-        case comm::TransferEnd::Aborted: return "aborted";
-    }
-    return "aborted";
-}
 
 base::Json rateJson(const comm::RateCheck& check) {
     base::Json out;
@@ -147,6 +139,15 @@ private:
 
 }  // namespace
 
+std::string_view wordFor(comm::TransferEnd end) {
+    switch (end) {
+        case comm::TransferEnd::Delivered: return "delivered";
+        case comm::TransferEnd::Refused: return "refused";
+        case comm::TransferEnd::Aborted: return "aborted";
+    }
+    return "aborted";
+}
+
 std::uint32_t randomClient() {
     std::random_device device;
     return 1 + (device() >> 1U);
@@ -162,12 +163,23 @@ ExitCode sendOverLink(const SendFlags& flags, const comm::LinkUrl& url, const co
         return failWith(link.error());
     }
     comm::Sender sender(program, options, (*link)->traits());
+    std::unique_ptr<SendMonitor> monitor;
+    if (!flags.monitor.empty()) {
+        auto opened = SendMonitor::open(flags, program, *record);
+        if (!opened) {
+            record->end("not sent", base::toText(opened.error().front()));
+            return failWith(opened.error());
+        }
+        monitor = *std::move(opened);
+        if (!flags.json) sayNow("monitor page at " + monitor->url() + "\n");
+    }
     const double begin_s = comm::transferClockSeconds();
     {
         ShownProgress progress("sending");
         SlowLinkWarning warning;
         comm::runTransfer(sender, **link, progress, [&](const comm::Sender& at) {
             if (!options.refuse_slow_link) warning.look(at);
+            if (monitor) monitor->look(at);
         });
     }
     const double seconds = comm::transferClockSeconds() - begin_s;
@@ -176,6 +188,7 @@ ExitCode sendOverLink(const SendFlags& flags, const comm::LinkUrl& url, const co
                                                        ? fmt::format("{} bytes confirmed", outcome.confirmed_bytes)
                                                        : fmt::format("{}: {}", outcome.code, outcome.message));
     if (outcome.end != comm::TransferEnd::Delivered) tellOutcome(flags, outcome);
+    if (monitor) monitor->end(sender, *record);
     if (flags.json) {
         base::Json out = summary(flags, program, *record);
         out.update(linkJson(sender, seconds));

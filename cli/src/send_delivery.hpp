@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace cusp::cli {
 
@@ -22,6 +23,8 @@ struct SendFlags {
     std::string fetch;
     std::string output;
     std::string machine;
+    std::string setup;
+    std::string monitor;
     std::string key_file;
     std::string preamble;
     std::string line_end = "keep";
@@ -29,6 +32,8 @@ struct SendFlags {
     std::string control_label;
     std::string ledger;
     std::optional<std::uint32_t> resume_block;
+    unsigned back_up_blocks = 3;
+    double approach_mm = 10.0;
     bool drip = false;
     bool allow_slow_link = false;
     bool measure = false;
@@ -42,6 +47,8 @@ struct SendFlags {
     bool json = false;
 };
 
+/// "delivered", "refused", "aborted".
+[[nodiscard]] std::string_view wordFor(comm::TransferEnd end);
 /// Not 0.
 [[nodiscard]] std::uint32_t randomClient();
 

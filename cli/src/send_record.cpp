@@ -25,14 +25,14 @@ std::string stateFolder() {
     return home == nullptr ? "" : std::string(home) + "/.local/state";
 }
 
-std::string nowUtc() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
-
 std::string randomTransfer() {
     std::random_device device;
     return fmt::format("{:08x}{:08x}", device(), device());
 }
 
 }  // namespace
+
+std::string nowUtc() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 base::Result<SendRecord> SendRecord::begin(const SendFlags& flags, const comm::Program& program) {
     SendRecord out;

@@ -12,6 +12,9 @@
 
 namespace cusp::cli {
 
+/// "2026-05-01T12:34:56Z", as the ledger has it.
+[[nodiscard]] std::string nowUtc();
+
 class SendRecord {
 public:
     /// Writes that the transfer begins: a transfer that cannot be recorded does not take place.
@@ -21,6 +24,8 @@ public:
     void end(const std::string& event, const std::string& detail);
     /// Empty without a ledger.
     [[nodiscard]] const std::string& transfer() const { return entry_.transfer; }
+    /// Null without a ledger.
+    [[nodiscard]] const comm::Ledger* ledger() const { return ledger_ ? &*ledger_ : nullptr; }
     [[nodiscard]] const std::string& path() const { return path_; }
 
 private:

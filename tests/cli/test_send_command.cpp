@@ -157,7 +157,7 @@ TEST_F(SendCommand, FoldersGetAnAtomicCopyItsDigestAndACaller) {
 TEST_F(SendCommand, ResumesWithAPreambleOnly) {
     ServedControl control("tcp://127.0.0.1:0");
     const std::string preamble = write("PRE.MPF", "G90 G94 F1000\n");
-    EXPECT_EQ(send({program, "--to", control.url(), "--resume-block", "30"}).exit_code, 2);
+    EXPECT_EQ(send({program, "--to", control.url(), "--resume-block", "30"}).exit_code, 2) << "no machine file either";
     EXPECT_EQ(send({program, "--to", control.url(), "--resume-block", "30", "--preamble", preamble}).exit_code, 0);
     EXPECT_EQ(send({program, "--to", control.url(), "--resume-block", "31", "--preamble", preamble}).exit_code, 3);
     control.stop();

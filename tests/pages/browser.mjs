@@ -60,12 +60,16 @@ export class Browser {
     }
 
     /** `scheme`: "light" or "dark"; what the page says and asks for is collected in `console` and `requests`. */
-    async open(file, { scheme = "light", width = 1240, height = 1000 } = {}) {
+    open(file, options) {
+        return this.openUrl(`file://${file}`, options);
+    }
+
+    async openUrl(url, { scheme = "light", width = 1240, height = 1000 } = {}) {
         const { targetId } = await this.send("Target.createTarget", { url: "about:blank" });
         const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
         const page = new Page(this, sessionId);
         await page.prepare(scheme, width, height);
-        await page.load(`file://${file}`);
+        await page.load(url);
         return page;
     }
 

@@ -69,6 +69,7 @@ void VirtualControl::State::openProgram() {
         std::make_unique<post::reader::ProgramRun>(feed.stream(), status.program, file, reading, preparation, report_);
     preparation.begin(status.axes);
     placement = preparation.placement();
+    status.tool = toolPath().placeOf(status.axes);
     read_out_ = false;
     status.finished = false;
     status.least_queued_blocks = options.look_ahead_blocks;
@@ -132,6 +133,7 @@ void VirtualControl::State::approach() {
         if (machine.linearNames()[i] == file.control.retract_axis) up[i] = over[i] = home[i];
     placement = preparation.placement();
     const dynamics::ToolPath tool = toolPath();
+    status.tool = tool.placeOf(status.axes);
     for (const auto& [from, to] : {std::pair{status.axes, up}, std::pair{up, over}, std::pair{over, target}}) {
         dynamics::PathBlock block = tool.axesLine(from, to);
         block.exact_stop = true;

@@ -138,7 +138,11 @@ void VirtualControl::State::passEvent(const RestEvent& event) {
         case RestEvent::Kind::OptionalStop:
             if (optional_stop) interrupt("M1");
             return;
-        case RestEvent::Kind::Placement: placement = event.placement; return;
+        case RestEvent::Kind::Placement:
+            // The same axes are another tip with another tool: that is no motion.
+            placement = event.placement;
+            status.tool = toolPath().placeOf(status.axes);
+            return;
         case RestEvent::Kind::End:
             run_.reset();
             newPlanner();

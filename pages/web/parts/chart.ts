@@ -19,6 +19,8 @@ export interface Curve {
   /** Decimals under the pointer. */
   places?: number;
   hidden?: boolean;
+  /** On the axis at the right. */
+  scale?: "y2";
 }
 
 export interface ChartInput {
@@ -29,6 +31,8 @@ export interface ChartInput {
   x_places: number;
   y_name: string;
   y_unit: string;
+  /** A second axis at the right, with fixed ends. */
+  y2?: { name: string; unit: string; low: number; high: number };
   curves: Curve[];
   /** Drawn as a band with dashed ends. */
   limits?: readonly [number, number] | undefined;
@@ -83,7 +87,7 @@ function yRange(input: ChartInput): uPlot.Range.Function {
 function series(curve: Curve): uPlot.Series {
   const color = token(curve.color);
   return {
-    label: curve.name, stroke: color, width: curve.width ?? 1.5, show: !curve.hidden,
+    label: curve.name, stroke: color, scale: curve.scale ?? "y", width: curve.width ?? 1.5, show: !curve.hidden,
     ...(curve.dash ? { dash: curve.dash } : {}),
     ...(curve.marks ? { paths: () => null, points: { show: true, size: 7, fill: color, stroke: color } } : { points: { show: false } }),
     value: (_plot, value) => (value === null || value === undefined ? "\u2013" : fixed(value, curve.places ?? 2)),
@@ -97,8 +101,9 @@ function options(input: ChartInput, width_px: number, on_paper: boolean): uPlot.
   return {
     width: width_px, height: on_paper ? paperHeight_px : input.height_px ?? 220,
     cursor: { drag: { x: true, y: false }, points: { size: 7 } },
-    scales: { x: { time: false }, y: { range: yRange(input) } },
-    axes: [axis(input.x_name, input.x_unit, 34), axis(input.y_name, input.y_unit, 46)],
+    scales: { x: { time: false }, y: { range: yRange(input) }, ...(input.y2 ? { y2: { range: [input.y2.low, input.y2.high] } } : {}) },
+    axes: [axis(input.x_name, input.x_unit, 34), axis(input.y_name, input.y_unit, 46),
+      ...(input.y2 ? [{ ...axis(input.y2.name, input.y2.unit, 40), scale: "y2", side: 1 as const, grid: { show: false } }] : [])],
     legend: { live: true },
     series: [
       { label: input.x_name, value: (_plot, value) => (value === null || value === undefined ? "\u2013" : fixed(value, input.x_places)) },
@@ -123,6 +128,13 @@ export class Chart implements Drawing {
     this.input = input;
     this.element.setAttribute("aria-label", input.label);
     this.redraw();
+  }
+
+  /** More of the same curves: only the numbers change. */
+  feed(x: number[], values: (number | null)[][]): void {
+    this.input = { ...this.input, x, curves: this.input.curves.map((curve, i) => ({ ...curve, values: values[i] ?? [] })) };
+    if (this.plot) this.plot.setData([x, ...values] as uPlot.AlignedData);
+    else this.redraw();
   }
 
   redraw(paper_px?: number): void {

@@ -5,17 +5,14 @@ import { Box3, Box3Helper, Color, LineBasicMaterial, OrthographicCamera, Scene, 
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import { ColorScale, legend, type ScaleRange } from "./color_scale";
-import { h, svg } from "./dom";
+import { h } from "./dom";
 import { count, fixed, micrometres } from "./number";
+import { drawTriad, triadElement, turnByKey, views } from "./orbit";
 import { PointCloud, type PointData } from "./point_cloud";
 import { followTheme, token, type Drawing } from "./theme";
 
-/** Directions to look from. */
-export const views = {
-  Oblique: new Vector3(0.75, -1.1, 0.8), Top: new Vector3(0, -1e-4, 1), Front: new Vector3(0, -1, 0), Right: new Vector3(1, 0, 0),
-};
+export { views };
 const pickRadius_px = 14;
-const keyStep_rad = Math.PI / 24;
 
 export class DeviationMap implements Drawing {
   readonly element: HTMLElement;
@@ -26,7 +23,7 @@ export class DeviationMap implements Drawing {
   private readonly cloud: PointCloud;
   private readonly box: Box3Helper;
   private controls: OrbitControls | undefined;
-  private readonly axes = svg("svg", { class: "axes", viewBox: "-42 -42 84 84", "aria-hidden": "true" });
+  private readonly axes = triadElement();
   private readonly tip = h("div", { class: "tip", hidden: true });
   private legendElement: SVGElement | undefined;
   private asked = false;
@@ -135,23 +132,7 @@ export class DeviationMap implements Drawing {
   }
 
   private key(event: KeyboardEvent): void {
-    const turn: Record<string, [number, number]> = {
-      ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
-    };
-    const zoom: Record<string, number> = { "+": 1.2, "-": 1 / 1.2 };
-    const [around, over] = turn[event.key] ?? [0, 0];
-    const factor = zoom[event.key];
-    if (around === 0 && over === 0 && factor === undefined) return;
-    event.preventDefault();
-    const position = this.camera.position;
-    const polar = Math.acos(position.z / position.length());
-    const wanted = Math.max(1e-3, Math.min(Math.PI - 1e-3, polar + over * keyStep_rad));
-    const azimuth = Math.atan2(position.y, position.x) + around * keyStep_rad;
-    const length = position.length();
-    position.setFromSphericalCoords(length, wanted, 0);
-    position.set(length * Math.sin(wanted) * Math.cos(azimuth), length * Math.sin(wanted) * Math.sin(azimuth), length * Math.cos(wanted));
-    if (factor) this.camera.zoom *= factor;
-    this.camera.updateProjectionMatrix();
+    if (!turnByKey(this.camera, new Vector3(), event)) return;
     this.controls?.update();
     this.ask();
   }
@@ -227,18 +208,8 @@ export class DeviationMap implements Drawing {
 
   private draw(): void {
     this.renderer?.render(this.scene, this.camera);
-    this.drawAxes();
+    drawTriad(this.axes, this.camera);
     // For whoever needs to know how it is turned, tests among them.
     this.element.dataset["camera"] = this.camera.position.toArray().map((value) => value.toFixed(3)).join(" ");
-  }
-
-  private drawAxes(): void {
-    const parts: [number, SVGElement[]][] = ["X", "Y", "Z"].map((name, i) => {
-      const tip = new Vector3().setComponent(i, 1).applyQuaternion(this.camera.quaternion.clone().invert());
-      const line = svg("line", { x1: 0, y1: 0, x2: tip.x * 26, y2: -tip.y * 26 });
-      return [tip.z, [line, svg("text", { x: tip.x * 35, y: -tip.y * 35 }, name)]];
-    });
-    parts.sort((a, b) => a[0] - b[0]);
-    this.axes.replaceChildren(...parts.flatMap(([, elements]) => elements));
   }
 }

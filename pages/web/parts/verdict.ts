@@ -19,11 +19,15 @@ export function isVerdict(text: unknown): text is Verdict {
 
 export const verdictWord = (verdict: Verdict): string => words[verdict];
 
-export function verdictBanner(verdict: Verdict, why: string): HTMLElement {
-  const sign = svg("svg", { viewBox: "0 0 24 24", fill: "not-asked", "stroke-width": 2.6, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": "true" },
+/** The sign in its circle, drawn in the circle's ground. */
+export function verdictSign(verdict: Verdict): SVGElement {
+  return svg("svg", { viewBox: "0 0 24 24", fill: "none", "stroke-width": 2.6, "stroke-linecap": "round", "stroke-linejoin": "round", "aria-hidden": "true" },
     svg("path", { d: signs[verdict] }));
+}
+
+export function verdictBanner(verdict: Verdict, why: string): HTMLElement {
   return h("section", { class: `verdict ${verdict}`, "aria-label": "Decision" },
-    h("div", { class: "sign" }, sign), h("div", { class: "word" }, words[verdict]), h("div", { class: "why" }, why));
+    h("div", { class: "sign" }, verdictSign(verdict)), h("div", { class: "word" }, words[verdict]), h("div", { class: "why" }, why));
 }
 
 export function verdictTag(verdict: Verdict): HTMLElement {

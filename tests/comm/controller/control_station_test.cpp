@@ -105,6 +105,18 @@ TEST(ControlSetup, EveryToolAndEveryWorkOffsetHasItsOwnPlace) {
     EXPECT_NEAR(second[1] - first[1], 20.0, 1e-9);
     EXPECT_NEAR(second[2] - first[2], 50.0 + 60.0, 1e-9);
     EXPECT_LE(bench.limitUse(), 1.0 + 1e-5);
+    // Another tool or offset is another tip with the same axes, and no motion.
+    Bench watched("three-axis", options);
+    ASSERT_TRUE(watched.control.select("P.MPF", program));
+    ASSERT_TRUE(watched.control.start());
+    double fastest = 0.0;
+    for (int i = 0; i < 20'000 && !watched.control.status().finished; ++i) {
+        watched.control.advance(options.tick_s);
+        fastest = std::max(fastest, watched.control.status().feed_mm_per_s);
+        static_cast<void>(watched.control.status().waiting_for == "M0" && watched.control.start());
+    }
+    EXPECT_TRUE(watched.control.status().finished);
+    EXPECT_LT(fastest, 2000.0) << "mm/s, three rapids together";
     for (const auto& [text, number] : {std::pair{"G90 G54\nT=\"C\"\nM6\nD1\nG1 F100 X1\nM30\n", alarm::no_tool_length},
                                        std::pair{"G90 G56\nT2\nM6\nD1\nG1 F100 X1\nM30\n", alarm::no_work_offset}}) {
         Bench other("three-axis", options);

@@ -50,7 +50,9 @@ public:
     [[nodiscard]] bool start();
 
     [[nodiscard]] VirtualControl& control() { return control_; }
+    [[nodiscard]] const VirtualControl& control() const { return control_; }
     [[nodiscard]] Receiver& receiver() { return receiver_; }
+    [[nodiscard]] const Receiver& receiver() const { return receiver_; }
     [[nodiscard]] ControlHost& host() { return host_; }
     /// Connected clients of all links.
     [[nodiscard]] std::size_t clients() const;
