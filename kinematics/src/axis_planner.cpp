@@ -45,18 +45,15 @@ base::Diagnostics PlannerOptions::check() const {
 
 AxisPlanner::AxisPlanner(const Machine& machine, PlannerOptions options)
     : machine_(machine), options_(std::move(options)) {
-    for (std::size_t i = 0; i < machine_.rotaryCount(); ++i) seconds_per_rad_[i] = 1.0 / machine_.rotaryVelocity(i);
+    for (std::size_t i = 0; i < machine_.rotaryCount(); ++i) {
+        seconds_per_rad_[i] = 1.0 / machine_.rotaryVelocity(i);
+        endless_[i] = machine_.rotaryRange(i).endless;
+    }
     options_.window_points = std::max<std::size_t>(options_.window_points, 2);
     layers_.reserve(std::min<std::size_t>(options_.window_points, 1024));
     last_ = options_.start_rad;
 }
 
-double AxisPlanner::turned(std::size_t axis, double from, double to) const {
-    const double difference = to - from;
-    return std::abs(machine_.rotaryRange(axis).endless ? wrapAngle(difference) : difference);
-}
-
-/// What is needed of the way from the point before to judge every pair of candidates at once.
 void AxisPlanner::follow(Layer& layer, const AxisSolutions& solved, const Vector3& axis) {
     const double gap_rad = solved.gap_rad;
     if (solved_before_ && layer.cutting) {
@@ -116,34 +113,40 @@ AxisPlanner::Cost AxisPlanner::stepCost(const Layer& layer, const State& from, c
             .start_nrad = was_free && !std::isnan(to.rotary_rad[0]) ? nano(std::abs(to.rotary_rad[0])) : 0};
 }
 
-AxisPlanner::Frontier AxisPlanner::reached(const Layer& layer, const Candidate& candidate) const {
+/// `likely` is asked first: most of the others then take longer by their turn alone.
+AxisPlanner::Frontier AxisPlanner::reached(const Layer& layer, const Candidate& candidate, std::size_t likely) const {
     Frontier best{.state = {.rotary_rad = candidate.rotary_rad, .before = 0, .branch = candidate.branch},
                   .cost = {},
                   .alive = false};
-    for (std::size_t i = 0; i < frontier_.size(); ++i) {
-        const Frontier& from = frontier_[i];
-        if (!from.alive) continue;
-        // At the pole only the states with this very angle lead here: the first axis keeps still.
-        if (layer.pole && from.state.rotary_rad[0] != candidate.rotary_rad[0] &&
-            !(std::isnan(from.state.rotary_rad[0]) && std::isnan(candidate.rotary_rad[0])))
-            continue;
-        // Whatever the way, it takes the time of the turn.
-        if (best.alive && from.cost.time_ns + nano(turnTime(from.state, candidate)) > best.cost.time_ns) continue;
-        Cost cost = stepCost(layer, from.state, candidate);
-        cost.time_ns += from.cost.time_ns;
-        cost.travel_nrad += from.cost.travel_nrad;
-        cost.start_nrad += from.cost.start_nrad;
-        if (best.alive && !(cost < best.cost)) continue;
-        best.alive = true;
-        best.cost = cost;
-        best.state.before = static_cast<std::uint32_t>(i);
-    }
+    if (likely < frontier_.size()) consider(layer, candidate, likely, best);
+    for (std::size_t i = 0; i < frontier_.size(); ++i)
+        if (i != likely) consider(layer, candidate, i, best);
     return best;
+}
+
+/// Among equals the first counts.
+void AxisPlanner::consider(const Layer& layer, const Candidate& candidate, std::size_t index, Frontier& best) const {
+    const Frontier& from = frontier_[index];
+    if (!from.alive) return;
+    // At the pole only the states with this very angle lead here: the first axis keeps still.
+    if (layer.pole && from.state.rotary_rad[0] != candidate.rotary_rad[0] &&
+        !(std::isnan(from.state.rotary_rad[0]) && std::isnan(candidate.rotary_rad[0])))
+        return;
+    // Whatever the way, it takes the time of the turn.
+    if (best.alive && from.cost.time_ns + nano(turnTime(from.state, candidate)) > best.cost.time_ns) return;
+    Cost cost = stepCost(layer, from.state, candidate);
+    cost.time_ns += from.cost.time_ns;
+    cost.travel_nrad += from.cost.travel_nrad;
+    cost.start_nrad += from.cost.start_nrad;
+    if (best.alive && (best.cost < cost || (cost == best.cost && best.state.before < index))) return;
+    best.alive = true;
+    best.cost = cost;
+    best.state.before = static_cast<std::uint32_t>(index);
 }
 
 void AxisPlanner::addState(const Layer& layer, const Candidate& candidate) {
     if (!layers_.empty()) {
-        reached_.push_back(reached(layer, candidate));
+        reached_.push_back(reached(layer, candidate, reached_.size()));
         return;
     }
     Frontier first{.state = {.rotary_rad = candidate.rotary_rad, .before = 0, .branch = candidate.branch}, .cost = {}};

@@ -102,7 +102,7 @@ void LinearTravel::moveTo(const Vector3& tip_mm, const RotaryValues& rotary_rad,
 
 void LinearTravel::look(const Pose& from, const Pose& to, std::uint32_t cl_line, int depth) {
     const double bulge_mm = bulge(from.values, to.values, (to.tip_mm - from.tip_mm).norm());
-    if (bulge_mm <= options_.bound_mm || depth == deepest || !isOpen(from.values, to.values, bulge_mm)) return;
+    if (bulge_mm <= options_.bound_mm || depth == deepest || !isOpen(from.values, to.values, bulge_mm, cl_line)) return;
     const RotaryValues half{0.5 * (from.values.rotary_rad[0] + to.values.rotary_rad[0]),
                             0.5 * (from.values.rotary_rad[1] + to.values.rotary_rad[1])};
     const auto middle = solve(0.5 * (from.tip_mm + to.tip_mm), half, cl_line);
@@ -112,17 +112,24 @@ void LinearTravel::look(const Pose& from, const Pose& to, std::uint32_t cl_line,
     look(*middle, to, cl_line, depth + 1);
 }
 
-/// Whether the part between could go beyond a limit, or beyond what the summary says by more than the bound.
-bool LinearTravel::isOpen(const AxisValues& from, const AxisValues& to, double bulge_mm) const {
+/// Whether the part between could go beyond a limit, or beyond what is known already by more than the bound. How far beyond
+/// a limit something lies needs no such care: a thousandth of it does, or a path far outside would be looked at for ever.
+bool LinearTravel::isOpen(const AxisValues& from, const AxisValues& to, double bulge_mm, std::uint32_t cl_line) const {
+    constexpr double share_of_excess = 0.001;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto axis = static_cast<Eigen::Index>(i);
         const double low = std::min(from.linear_mm[axis], to.linear_mm[axis]) - bulge_mm;
         const double high = std::max(from.linear_mm[axis], to.linear_mm[axis]) + bulge_mm;
         const AxisRange& range = machine_.linearRange(i);
         const auto& [lowest, highest] = summary_.range_mm[i];
-        if (low < std::max(range.min, lowest - options_.bound_mm) ||
-            high > std::min(range.max, highest + options_.bound_mm))
-            return true;
+        const double low_slack = options_.bound_mm + share_of_excess * std::max(0.0, range.min - lowest);
+        const double high_slack = options_.bound_mm + share_of_excess * std::max(0.0, highest - range.max);
+        if (low < lowest - low_slack || high > highest + high_slack) return true;
+        const Held& held = held_[i];
+        const double known_mm =
+            held.line == cl_line ? std::max(held.excess_mm, held.start_excess_mm) : held.end_excess_mm;
+        const double excess_mm = std::max(range.excess(low), range.excess(high));
+        if (excess_mm > (known_mm > 0.0 ? (1.0 + share_of_excess) * known_mm + options_.bound_mm : 0.0)) return true;
     }
     return false;
 }

@@ -5,9 +5,11 @@
 
 #include <cusp/base/diagnostics.hpp>
 #include <cusp/base/units.hpp>
+#include <cusp/kinematics/angles.hpp>
 #include <cusp/kinematics/machine.hpp>
 
 #include <array>
+#include <cmath>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -147,13 +149,17 @@ private:
     void addWindings(std::size_t axis, double angle_rad);
     void addState(const Layer& layer, const Candidate& candidate);
     /// The cheapest way from the layer before to a candidate.
-    [[nodiscard]] Frontier reached(const Layer& layer, const Candidate& candidate) const;
+    [[nodiscard]] Frontier reached(const Layer& layer, const Candidate& candidate, std::size_t likely) const;
+    void consider(const Layer& layer, const Candidate& candidate, std::size_t from, Frontier& best) const;
     void follow(Layer& layer, const AxisSolutions& solved, const Vector3& axis);
     [[nodiscard]] double turnTime(const State& from, const Candidate& to) const;
     [[nodiscard]] Cost stepCost(const Layer& layer, const State& from, const Candidate& to) const;
     enum class Way : std::uint8_t { Followed, ThroughCone, Rewind };
     [[nodiscard]] Way wayOf(const Layer& layer, const State& from, const Candidate& to) const;
-    [[nodiscard]] double turned(std::size_t axis, double from, double to) const;
+    [[nodiscard]] double turned(std::size_t axis, double from, double to) const {
+        const double difference = to - from;
+        return std::abs(endless_[axis] ? wrapAngle(difference) : difference);
+    }
 
     void commit(std::size_t layer_count);
     [[nodiscard]] std::vector<std::uint32_t> traceBack() const;
@@ -166,6 +172,7 @@ private:
     const Machine& machine_;
     PlannerOptions options_;
     RotaryValues seconds_per_rad_{};
+    std::array<bool, 2> endless_{};
     std::vector<Layer> layers_;
     std::vector<State> states_;
     std::vector<Frontier> frontier_;  ///< the states of the last layer

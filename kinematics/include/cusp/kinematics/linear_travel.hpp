@@ -17,7 +17,7 @@ namespace cusp::kinematics {
 
 struct TravelOptions {
     /// What a linear axis may do between two looks without being seen: no position goes further than this beyond those
-    /// looked at.
+    /// looked at, while they keep their limits.
     double bound_mm = 0.01;
     /// Name of the CL file, for messages.
     std::string file_name;
@@ -29,7 +29,8 @@ struct TravelOptions {
 struct TravelSummary {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::pair<double, double> no_range{infinity, -infinity};
-    /// Smallest and largest position of each linear axis, in chain order, within the bound; meaningless without moves.
+    /// Smallest and largest position of each linear axis, in chain order, within the bound, or within a thousandth of how far
+    /// they lie beyond a limit; meaningless without moves.
     std::array<std::pair<double, double>, 3> range_mm = {no_range, no_range, no_range};
     std::uint64_t moves = 0;
     std::uint64_t looks = 0;       ///< poses solved for
@@ -89,7 +90,8 @@ private:
 
     void prepareLevers();
     void look(const Pose& from, const Pose& to, std::uint32_t cl_line, int depth);
-    [[nodiscard]] bool isOpen(const AxisValues& from, const AxisValues& to, double bulge_mm) const;
+    [[nodiscard]] bool isOpen(const AxisValues& from, const AxisValues& to, double bulge_mm,
+                              std::uint32_t cl_line) const;
     [[nodiscard]] std::optional<Pose> solve(const Vector3& tip_mm, const RotaryValues& rotary_rad,
                                             std::uint32_t cl_line);
     void note(const AxisValues& values, std::uint32_t cl_line, bool at_end);

@@ -31,7 +31,8 @@ struct SetupTool {
     double length_mm = 0.0;  ///< gauge point to tip
 };
 
-/// Something that stands in the machine: a box, or a mesh by its file name. No check uses it yet.
+/// Something that stands in the machine: a box, or a mesh by its file name. The post lists it and says that the path is not checked
+/// against it.
 struct Fixture {
     std::string name;
     std::string work_offset;  ///< frame it is given in; empty: the machine frame, all axes at zero
