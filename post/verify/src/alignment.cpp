@@ -22,6 +22,9 @@ constexpr std::size_t look_ahead = 64;
 constexpr double same_tip_mm = 1e-9;
 constexpr double same_axis_rad = 1e-12;
 
+/// At the pole a turn of the first axis takes the tool axis no further off its way than this.
+constexpr double hardly_beside_rad = base::radFromDeg(0.1);
+
 bool isRapid(const ExecutedMotion& motion) { return motion.code == MotionCode::Rapid; }
 
 bool standsStill(const ExecutedMotion& motion) {
@@ -183,7 +186,10 @@ bool Alignment::onTheWay(const ExecutedMotion& motion) {
         checkKind(motion, point);
     checkBetween(motion, *fraction);
     checkTurns(motion, point.line);
-    if (detour && !isRapid(motion))
+    const ExpectedMove way = nextMove();
+    const double beside_rad =
+        reader::angleBetween(motion.end_pose->axis, reader::onGreatCircle(way.from.axis, way.to.axis, *fraction));
+    if (detour && !isRapid(motion) && beside_rad > hardly_beside_rad)
         findings_.state(base::Severity::Warning, "verify.winding", motion.place,
                         "the rotary axes change branch near the pole: the tip is on its way, the tool axis beside it",
                         point.line);

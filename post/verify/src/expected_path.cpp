@@ -13,6 +13,9 @@ namespace {
 
 /// Frames of one CL file that agree to its last decimals are one.
 constexpr double same_frame = 1e-6;
+/// Of a CL file's seventh decimal.
+constexpr double same_axis_rad = 1e-6;
+constexpr reader::Vector3 upright{0.0, 0.0, 1.0};
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
 reader::Vector3 toReader(const geometry::Vector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -23,11 +26,13 @@ public:
     explicit Walk(ExpectedPath& out) : out_(out) {}
 
     void operator()(const toolpath::LinearMotion& motion) {
+        choosePlane(toReader(motion.location).axis, false);
         add(toReader(motion.location), motion.kind == toolpath::MotionKind::Rapid);
     }
 
     void operator()(const toolpath::ArcMotion& motion) {
         const reader::ToolPose end = toReader(motion.end);
+        choosePlane(end.axis, false);
         const reader::Vector3 normal = toReader(motion.normal);
         ExpectedArc arc;
         arc.start_mm = tip_mm_;
@@ -81,6 +86,7 @@ public:
         // A tool never leaves a hole below where it went in at feed.
         const double retract = std::max(cycle_.retract_mm.value_or(cycle.approach_mm), cycle.approach_mm);
         using Kind = toolpath::CycleStart::Kind;
+        choosePlane(at.axis, true);
         goAbove(above(retract));
         add(above(retract), true).optional = true;
         add(above(cycle.approach_mm), true).optional = !cycle_.clearance_mm;
@@ -97,7 +103,11 @@ public:
         cycle_ = {};
     }
 
-    void operator()(const toolpath::WorkPlane&) { opens_ = true; }
+    void operator()(const toolpath::WorkPlane& plane) {
+        opens_ = true;
+        const geometry::Vector3 axis = plane.programming_from_plane.linear().col(2);
+        plane_axis_ = work_axis_ = toReader(axis);
+    }
     void operator()(const toolpath::FeedRate& feed) { change().feed = feed; }
     void operator()(const toolpath::SpindleCommand& command) {
         change().turn = command.turn;
@@ -132,6 +142,18 @@ public:
     std::uint32_t line = 0;
 
 private:
+    /// In 3+2 and for holes off Z the program stands in a plane of its own (CYCLE800): it goes home to tilt it, and home
+    /// again where the tool leaves that axis.
+    void choosePlane(const reader::Vector3& axis, bool hole) {
+        const auto along = [&](const reader::Vector3& other) {
+            return reader::angleBetween(axis, other) <= same_axis_rad;
+        };
+        const reader::Vector3 wanted = along(work_axis_) ? work_axis_ : along(plane_axis_) || hole ? axis : upright;
+        if (reader::angleBetween(wanted, plane_axis_) <= same_axis_rad) return;
+        opens_ = true;
+        plane_axis_ = wanted;
+    }
+
     /// To a hole the tool goes across at the greater of two heights: where it is and the hole's retract plane. Below it
     /// would be a rapid through whatever stands there: so first up along the tool axis, or, where that lies flat against
     /// the hole's, by way of home. From above it may come down on the way, or over the hole.
@@ -188,6 +210,8 @@ private:
     ExpectedProcess process_;
     bool process_changed_ = true;
     bool opens_ = true;
+    reader::Vector3 work_axis_ = upright;   ///< of the plane the CL file is in
+    reader::Vector3 plane_axis_ = upright;  ///< of the plane the program may stand in
     reader::Vector3 tip_mm_;
     std::vector<geometry::RigidTransform> frames_;
     toolpath::CycleStart cycle_;

@@ -100,7 +100,9 @@ RotaryValues TipLineariser::between(const Node& from, const Node& to) const {
         for (std::size_t i = 0; i < candidate.size(); ++i)
             candidate[i] = middle[i] + kinematics::wrapAngle(solved.branch[branch][i] - middle[i]);
         if (solved.pole) candidate[0] = middle[0];
-        const double away = std::abs(candidate[0] - middle[0]) + std::abs(candidate[1] - middle[1]);
+        // The second axis tells the branches apart; the first may be far from the middle of a turn at a pole.
+        constexpr double first_counts = 1e-3;
+        const double away = first_counts * std::abs(candidate[0] - middle[0]) + std::abs(candidate[1] - middle[1]);
         if (away >= least) continue;
         least = away;
         nearest = candidate;
@@ -108,7 +110,8 @@ RotaryValues TipLineariser::between(const Node& from, const Node& to) const {
     constexpr double uneven = 0.25;
     const double turn =
         std::abs(to.rotary_rad[0] - from.rotary_rad[0]) + std::abs(to.rotary_rad[1] - from.rotary_rad[1]);
-    if (least > uneven * turn && linearTurnKeepsAxis(from, to)) return middle;
+    const double off = std::abs(nearest[0] - middle[0]) + std::abs(nearest[1] - middle[1]);
+    if (off > uneven * turn && linearTurnKeepsAxis(from, to)) return middle;
     return nearest;
 }
 

@@ -88,6 +88,44 @@ TEST_P(Holes, AreReachedFromAbove) {
         }
 }
 
+/// Patterns across leaning axes in one operation, with cuts between: each in a plane of its own, by way of home.
+std::string leaningHoles(std::uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    std::string cl = "UNITS/MM\nCUTTER/6,0,3,0,0,0,50\nLOADTL/4\nSPINDL/500,RPM,CLW\nMULTAX/ON\nFEDRAT/600,MMPM\n";
+    for (int pattern = 0; pattern < 4; ++pattern) {
+        cl += fmt::format("GOTO/{:.4f},{:.4f},20,0,0,1\nGOTO/{:.4f},{:.4f},20,0,0,1\n", between(0.0, 40.0),
+                          between(0.0, 40.0), between(0.0, 40.0), between(0.0, 40.0));
+        const double tilt = base::radFromDeg(between(10.0, 60.0));
+        const double azimuth = base::radFromDeg(between(-150.0, 150.0));
+        const std::string axis = fmt::format("{:.9f},{:.9f},{:.9f}", std::sin(tilt) * std::cos(azimuth),
+                                             std::sin(tilt) * std::sin(azimuth), std::cos(tilt));
+        if (pattern % 2 == 1)
+            cl += fmt::format("RAPID\nGOTO/{:.4f},{:.4f},60,{}\n", between(0.0, 40.0), between(0.0, 40.0), axis);
+        cl += "CYCLE/DRILL,DEPTH,12,MMPM,300,CLEAR,2\n";
+        for (int hole = 0; hole < 3; ++hole)
+            cl += fmt::format("GOTO/{:.4f},{:.4f},{:.4f},{}\n", between(0.0, 40.0), between(0.0, 40.0),
+                              between(-5.0, 30.0), axis);
+        cl += "CYCLE/OFF\n";
+    }
+    return cl + "RAPID\nGOTO/0,0,80,0,0,1\nFINI\n";
+}
+
+TEST_P(Holes, LeanWithinOneOperation) {
+    const MachineFile machine = shippedMachine(GetParam());
+    if (machine.machine.rotary.empty()) GTEST_SKIP() << "no rotary axes, no leaning holes";
+    for (std::uint32_t seed = first_seed; seed < first_seed + 6; ++seed)
+        for (const auto& [word, form] : programFormWords()) {
+            SCOPED_TRACE(fmt::format("{}, seed {}, {}", GetParam(), seed, word));
+            const std::string cl = leaningHoles(seed);
+            const Posted posted = post(cl, machine, optionsFor(form));
+            ASSERT_FALSE(posted.report.hasErrors()) << base::toText(posted.report) << cl;
+            const auto report = verify(posted.program, cl, machine, witnessOptions());
+            EXPECT_TRUE(report.pass) << base::toText(report.findings) << cl << posted.program;
+            EXPECT_EQ(report.matched, report.points);
+        }
+}
+
 /// Every lift taken out, one at a time.
 TEST_P(Holes, AMissingLiftIsFound) {
     const MachineFile machine = shippedMachine(GetParam());
