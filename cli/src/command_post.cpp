@@ -62,6 +62,7 @@ struct Flags {
     std::optional<double> retract_feed_mm_per_min;
     std::optional<double> engage_feed_mm_per_min;
     std::optional<double> chord_tolerance_mm;
+    int threads = 2;
     bool cycle_time = false;
     bool no_cycle_time = false;
     std::string map;
@@ -167,6 +168,15 @@ void takeFrom(const machine::SetupDefinition& setup, post::PostOptions& options)
         if (tool.number) options.tool_lengths_mm.try_emplace(std::to_string(*tool.number), tool.length_mm);
     }
     for (const auto& [name, offset] : setup.work_offsets) options.offset_origins_mm.try_emplace(name, offset.origin_mm);
+}
+
+/// What a setup holds and nothing here looks at is said, not passed over.
+void tellFixtures(const machine::SetupDefinition& setup, const std::string& file, base::Diagnostics& report) {
+    if (setup.fixtures.empty()) return;
+    std::string names;
+    for (const machine::Fixture& fixture : setup.fixtures) names += (names.empty() ? "" : ", ") + fixture.name;
+    report.warning("post.fixtures", "the path is not checked against the fixtures of the setup: " + names,
+                   {file, 0, 0, {}});
 }
 
 void tellTravel(post::TravelCheck& travel, PostOutcome& outcome) {
@@ -286,16 +296,18 @@ ExitCode runPost(const Flags& flags) {
     post::ProgramPlanner planner(machine->file, machine->model, *options, flags.cl_file, steps, planning);
     ProgressBar bar("posting");
     std::uint64_t records = 0;
-    for (toolpath::ClRecord record; input->reader().next(record);) {
-        if (interrupted()) return ExitCode::Interrupted;
-        planner.take(record);
+    const auto source = [&](toolpath::ClRecord& record) {
         if (++records % records_per_look == 0) bar.show(input->text().position(), input->text().size());
-    }
-    outcome.summary = planner.finish();
+        return !interrupted() && input->reader().next(record);
+    };
+    using Threads = post::ProgramPlanner::Threads;
+    outcome.summary = planner.run(source, flags.threads == 1 ? Threads::One : Threads::Two);
+    if (interrupted()) return ExitCode::Interrupted;
     outcome.blocks = writer.finish();
     outcome.report.append(input->reader().report());
     outcome.report.append(planning);
     if (travel) tellTravel(*travel, outcome);
+    if (*setup) tellFixtures(**setup, options->setup, outcome.report);
     if (time && !outcome.report.hasErrors()) {
         outcome.cycle_time = time->finish();
         outcome.too_long_to_estimate = time->tooManyMoves();
@@ -376,6 +388,9 @@ void addPostCommand(CLI::App& app, Action& action) {
     CLI::Option* cycle_time =
         post->add_flag("--cycle-time", flags->cycle_time,
                        "Estimates how long the program runs; left out, only where it has up to 50000 moves.");
+    post->add_option("--threads", flags->threads, "1 or 2: reading beside writing. The program is the same.")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 2));
     post->add_flag("--no-cycle-time", flags->no_cycle_time, "Estimates no cycle time.")->excludes(cycle_time);
     post->add_flag("--strict", flags->strict,
                    "Statements that are not understood, and cuts with the spindle off, are errors.");

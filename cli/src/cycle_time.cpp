@@ -61,13 +61,29 @@ struct CycleTimeEstimate::State {
     bool smooth = false;
     bool axis_programming = false;
     std::optional<geometry::RigidTransform> workpiece_from_plane;  ///< points are in a tilted plane
+    double tool_length_mm = 0.0;
     double rpm = 0.0;
     post::HoleCycle hole;
     std::size_t moves = 0;
     bool lost = false;
     bool too_many = false;
 
-    void setTool(double length_mm) { path = ToolPath(machine, length_mm, origin); }
+    void setTool(double length_mm) {
+        tool_length_mm = length_mm;
+        path = ToolPath(machine, length_mm, origin);
+    }
+    /// The part lies where the offset is; the axes stand still meanwhile.
+    void setOffset(const std::string& name) {
+        const machine::WorkOffset* offset =
+            options.setup != nullptr ? options.setup->findOffset(name.empty() ? options.work_offset : name) : nullptr;
+        result.from_setup = result.from_setup && offset != nullptr;
+        if (offset == nullptr) return;
+        const Vector3 place = geometry::toVector(offset->origin_mm);
+        if (place == origin) return;
+        rest();
+        origin = place;
+        setTool(tool_length_mm);
+    }
 
     [[nodiscard]] double feedOf(const toolpath::FeedRate& feed) const {
         return feed.unit == toolpath::FeedRate::Unit::MmPerS ? feed.value : feed.value * rpm / seconds_per_minute;
@@ -86,7 +102,8 @@ struct CycleTimeEstimate::State {
             lost = true;
             return;
         }
-        ++moves;
+        // A turn of the rotary axes is planned in parts, each as dear as a move.
+        moves += std::max<std::size_t>(1, block->points.size() - 1);
         too_many = options.most_moves > 0 && moves > options.most_moves;
         block->feed_mm_per_s = feed_mm_per_s;
         block->exact_stop = !smooth;
@@ -145,10 +162,12 @@ struct CycleTimeEstimate::State {
     void see(const post::PositionRotary& item) {
         rapid(path.axesLine(axes, {axes[0], axes[1], axes[2], item.rotary_rad[0], item.rotary_rad[1]}));
     }
-    void see(const post::TipProgramming&) {
+    void see(const post::TipProgramming& item) {
         axis_programming = false;
         workpiece_from_plane.reset();
+        if (item.on) setOffset(item.work_offset);
     }
+    void see(const post::SelectWorkOffset& item) { setOffset(item.name); }
     void see(const post::TiltedPlane& item) {
         axis_programming = false;
         see(post::PositionRotary{item.rotary_rad});
@@ -233,7 +252,6 @@ struct CycleTimeEstimate::State {
     void see(const post::RadiusCompensation&) {}
     void see(const post::ModalStart&) {}
     void see(const post::ScreenMessage&) {}
-    void see(const post::SelectWorkOffset&) {}
     void see(const post::Coolant&) {}
     void see(const post::HoleCycleOff&) {}
 };

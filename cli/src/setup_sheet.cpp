@@ -89,6 +89,22 @@ std::string offsetsText(const PostOutcome& outcome, const std::optional<machine:
     return out;
 }
 
+std::string fixtureText(const machine::Fixture& fixture) {
+    if (!fixture.stl.empty()) return "mesh " + cell(fixture.stl);
+    return fmt::format("{} to {}", point(geometry::toVector(*fixture.min_mm)),
+                       point(geometry::toVector(*fixture.max_mm)));
+}
+
+std::string fixturesText(const std::optional<machine::SetupDefinition>& setup) {
+    if (!setup || setup->fixtures.empty()) return {};
+    std::string out = "\n## Fixtures\n\nAs the setup file has them. The path is NOT checked against them.\n\n"
+                      "| fixture | given in | where |\n|---|---|---|\n";
+    for (const machine::Fixture& fixture : setup->fixtures)
+        out += fmt::format("| {} | {} | {} |\n", cell(fixture.name),
+                           fixture.work_offset.empty() ? "machine" : fixture.work_offset, fixtureText(fixture));
+    return out;
+}
+
 std::string toolsText(const std::vector<OperationRecord>& records,
                       const std::optional<machine::SetupDefinition>& setup) {
     std::string out = "\n## Tools\n\nLength is from the spindle's gauge point to the tip, in mm.\n\n"
@@ -118,18 +134,19 @@ std::string operationsText(const std::vector<OperationRecord>& records) {
     std::string out =
         "\n## Operations\n\nExtents are those of the tool tip in the work offset; times are at the programmed "
         "feeds, without rapids and holes.\n\n"
-        "| | operation | CL line | tool | offset | lowest | highest | feed mm/min | cut | time |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n";
+        "| | operation | CL line | tool | offset | lowest | highest | feed mm/min | cut | time | rapid |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|\n";
     std::size_t number = 0;
     for (const OperationRecord& record : records) {
         std::string feed = record.greatest_feed > 0.0 ? fmt::format("{:.0f}", record.greatest_feed) : "";
         if (record.greatest_feed > 0.0 && record.least_feed < record.greatest_feed)
             feed = fmt::format("{:.0f} to {:.0f}", record.least_feed, record.greatest_feed);
         const std::string holes = record.holes > 0 ? fmt::format(", {} holes", record.holes) : "";
-        out += fmt::format("| {} | {} | {} | {} | {}{} | {} | {} | {} | {:.0f} mm{} | {} |\n", ++number,
+        out += fmt::format("| {} | {} | {} | {} | {}{} | {} | {} | {} | {:.0f} mm{} | {} | {:.0f} mm |\n", ++number,
                            record.name.empty() ? "unnamed" : cell(record.name), record.line, toolText(record),
                            record.work_offset, record.tilted_plane ? ", tilted plane" : "", point(record.low_mm),
-                           point(record.high_mm), feed, record.feed_length_mm, holes, durationText(record.feed_time_s));
+                           point(record.high_mm), feed, record.feed_length_mm, holes, durationText(record.feed_time_s),
+                           record.rapid_length_mm);
     }
     return out;
 }
@@ -139,8 +156,8 @@ std::string operationsText(const std::vector<OperationRecord>& records) {
 std::string setupSheet(const PostOutcome& outcome, const std::string& program_name,
                        const std::optional<machine::SetupDefinition>& setup) {
     const auto records = worked(outcome);
-    return headText(outcome, program_name) + offsetsText(outcome, setup) + toolsText(records, setup) +
-           operationsText(records);
+    return headText(outcome, program_name) + offsetsText(outcome, setup) + fixturesText(setup) +
+           toolsText(records, setup) + operationsText(records);
 }
 
 }  // namespace cusp::cli

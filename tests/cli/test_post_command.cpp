@@ -216,16 +216,23 @@ TEST_F(PostCommand, TheSetupSheetSaysWhatToClamp) {
     const std::string cl = write("part.cls", small_cl);
     const std::string setup = write("setup.toml", "schema = 1\nname = \"plate\"\n[work_offset.G54]\n"
                                                   "origin_mm = [1000.0, 0.0, -600.0]\n[[tool]]\nname = \"BALL_6\"\n"
-                                                  "length_mm = 150.0\n");
+                                                  "length_mm = 150.0\n[[fixture]]\nname = \"vise\"\n"
+                                                  "work_offset = \"G54\"\nmin_mm = [-100.0, -80.0, -120.0]\n"
+                                                  "max_mm = [-10.0, 80.0, -20.0]\n");
     const auto outcome = run(
         {"post", cl, "-m", "fooke-endura-ca", "-o", path("P.MPF"), "--setup", setup, "--setup-sheet", path("P.md")});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("warning: the path is not checked against the fixtures of the setup: vise"),
+              std::string::npos)
+        << outcome.errors;
     const std::string sheet = read("P.md");
     for (
         const std::string line :
         {"# Setup sheet: P\n", "| G54 | X 0.000, Y 0.000, Z 0.000 | X 1000.000, Y 0.000, Z -600.000 |\n",
          "| BALL_6 | diameter 6, corner radius 3, cutting length 50 | 150.000 | 8000 rev/min | 1 |\n",
-         "| 1 | OP1 | 1 | BALL_6 | G54 | X 0.000, Y 0.000, Z 0.000 | X 10.000, Y 0.000, Z 50.000 | 1200 | 60 mm | 3 s |\n"})
+         "| 1 | OP1 | 1 | BALL_6 | G54 | X 0.000, Y 0.000, Z 0.000 | X 10.000, Y 0.000, Z 50.000 | 1200 | 60 mm | 3 s | ",
+         "| vise | G54 | X -100.000, Y -80.000, Z -120.000 to X -10.000, Y 80.000, Z -20.000 |\n",
+         "The path is NOT checked against them."})
         EXPECT_NE(sheet.find(line), std::string::npos) << line << sheet;
 }
 

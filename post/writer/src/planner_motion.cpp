@@ -124,27 +124,11 @@ std::optional<geometry::RigidTransform> ProgramPlanner::State::planeFor(const To
     };
     if (stands(work_plane)) return work_plane;
     if (stands(plane) && way.inPlane()) return plane;
-    if (!hole && (cutting || !holeAhead(pose.axis))) return std::nullopt;
+    if (!hole && (cutting || !hole_ahead)) return std::nullopt;
     if (way.inPlane()) return alongZ(pose.axis) ? std::nullopt : std::optional(planeAcross(pose.axis));
     const auto frame = way.programmedFrame(pose);
     if (!frame || alongZ((frame->linear() * pose.axis).normalized())) return std::nullopt;
     return planeAcross(pose.axis);
-}
-
-/// Whether the tool drills before it turns, is changed or begins another operation: then it approaches in the plane of the
-/// hole. Looks no further than the branch planner has.
-bool ProgramPlanner::State::holeAhead(const Vector3& axis) const {
-    for (const toolpath::ClRecord& record : waiting) {
-        const auto& statement = record.statement;
-        if (const auto* hole = std::get_if<toolpath::HoleLocation>(&statement))
-            return geometry::angleBetween(hole->location.axis, axis) <= same_axis_rad;
-        const auto* motion = std::get_if<toolpath::LinearMotion>(&statement);
-        if (motion != nullptr && geometry::angleBetween(motion->location.axis, axis) > same_axis_rad) return false;
-        if (std::holds_alternative<toolpath::ToolCall>(statement) ||
-            std::holds_alternative<toolpath::OperationStart>(statement))
-            return false;
-    }
-    return false;
 }
 
 void ProgramPlanner::State::choosePlane(const ToolPose& pose, bool hole) {

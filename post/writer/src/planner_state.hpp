@@ -3,15 +3,14 @@
 // What the planner knows at one record of the CL file.
 #pragma once
 
+#include "axis_stage.hpp"
 #include "operation_log.hpp"
 #include "process_words.hpp"
 #include "tool_motion.hpp"
 #include "work_offsets.hpp"
 
-#include <cusp/kinematics/axis_planner.hpp>
 #include <cusp/post/writer/program_planner.hpp>
 
-#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,8 +23,8 @@ struct ProgramPlanner::State {
     State(const MachineFile& machine_file, const kinematics::Machine& machine_model, PostOptions post_options,
           std::string file, NcSink& steps, base::Diagnostics& diagnostics);
 
-    /// Runs the records whose rotary positions are decided.
-    void drain();
+    /// What the statement asks for; its rotary positions are decided.
+    void run(const PlannedRecord& record);
     void finish();
 
     const MachineFile& machine;
@@ -34,15 +33,11 @@ struct ProgramPlanner::State {
     NcSink& sink;
     base::Diagnostics& report;
     const kinematics::Machine& model;
-    kinematics::AxisPlanner axes;
+    AxisStage axes;  ///< nothing below knows it before `finish`: it may run in a thread of its own
     ToolMotion way;
     WorkOffsets offsets;
     ProcessWords process;
     OperationLog log;
-
-    /// Records waiting for the rotary axes of the first motion among them.
-    std::deque<toolpath::ClRecord> waiting;
-    bool at_home = true;  ///< of the records taken: the next location is reached from home, not cut to
 
     template <class Item>
     void emit(Item item) {
@@ -79,7 +74,6 @@ struct ProgramPlanner::State {
     void beginMotion(const toolpath::CutterLocation& location, bool cut, bool hole);
     [[nodiscard]] ToolPose poseAt(const toolpath::CutterLocation& location) const;
     [[nodiscard]] std::optional<geometry::RigidTransform> planeFor(const ToolPose& pose, bool hole);
-    [[nodiscard]] bool holeAhead(const geometry::Vector3& axis) const;
     void choosePlane(const ToolPose& pose, bool hole);
     void beginCompensation(bool straight);
     void endHoleCycle();
@@ -122,6 +116,7 @@ struct ProgramPlanner::State {
 
     ToolPose to;  ///< the pose of the motion at hand
     kinematics::PlannedAxes planned;
+    bool hole_ahead = false;
     std::optional<RotaryValues> last_rotary;
     geometry::Vector3 last_tip = geometry::Vector3::Zero();
     PostSummary summary;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // Statements of the CL file that move nothing, and the stream as a whole.
+#include "batch_queue.hpp"
 #include "planner_state.hpp"
 #include "spindle_speed.hpp"
 
@@ -9,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <thread>
+#include <vector>
 
 namespace cusp::post {
 
@@ -41,20 +44,6 @@ std::vector<std::string> offsetNames(const MachineFile& machine, const PostOptio
     return {options.work_offset.empty() ? machine.control.work_offset : options.work_offset};
 }
 
-/// Where a statement sends the tool; none for a statement that does not move it.
-const toolpath::CutterLocation* locationOf(const toolpath::ClStatement& statement) {
-    if (const auto* motion = std::get_if<toolpath::LinearMotion>(&statement)) return &motion->location;
-    if (const auto* arc = std::get_if<toolpath::ArcMotion>(&statement)) return &arc->end;
-    if (const auto* hole = std::get_if<toolpath::HoleLocation>(&statement)) return &hole->location;
-    return nullptr;
-}
-
-bool isCut(const toolpath::ClStatement& statement) {
-    const auto* motion = std::get_if<toolpath::LinearMotion>(&statement);
-    return motion != nullptr ? motion->kind == MotionKind::Feed
-                             : std::holds_alternative<toolpath::ArcMotion>(statement);
-}
-
 }  // namespace
 
 ProgramPlanner::State::State(const MachineFile& machine_file, const kinematics::Machine& machine_model,
@@ -79,14 +68,14 @@ ProgramPlanner::State::State(const MachineFile& machine_file, const kinematics::
     started = true;
 }
 
-void ProgramPlanner::State::drain() {
-    while (!waiting.empty()) {
-        const ClRecord& record = waiting.front();
-        if (locationOf(record.statement) != nullptr && !axes.pop(planned)) return;
-        line = record.line;
-        std::visit([this](const auto& statement) { take(statement); }, record.statement);
-        waiting.pop_front();
-    }
+void ProgramPlanner::State::run(const PlannedRecord& record) {
+    line = record.line;
+    planned = record.axes;
+    hole_ahead = record.hole_ahead;
+    if (record.other)
+        std::visit([this](const auto& statement) { take(statement); }, record.other->statement);
+    else
+        take(record.motion);
 }
 
 void ProgramPlanner::State::take(const toolpath::HomeReturn&) {
@@ -204,7 +193,7 @@ void ProgramPlanner::State::finish() {
     line = 0;
     if (cutting) leavePart();
     run(machine.control.sequence.program_end);
-    report.append(axes.report());
+    report.append(axes.axes().report());
     report.append(way.refiner().report());
     report.append(way.excursions().report());
     summary.excursions = way.excursions().planned();
@@ -212,8 +201,9 @@ void ProgramPlanner::State::finish() {
     summary.inserted_blocks = refined.inserted + way.linearised();
     summary.largest_chord_error_mm = way.largestChordError();
     countDeviation(refined.max_deviation_rad, refined.max_deviation_line);
-    summary.limit_violations += axes.summary().limit_violations + axes.summary().unreached + axes.summary().rewinds -
-                                summary.excursions + way.refiner().report().errorCount();
+    const kinematics::PlannerSummary& turned = axes.axes().summary();
+    summary.limit_violations += turned.limit_violations + turned.unreached + turned.rewinds - summary.excursions +
+                                way.refiner().report().errorCount();
     summary.work_offsets = offsets.used();
     if (summary.work_offsets.empty()) summary.work_offsets.push_back({work_offset, {}, 0});
     summary.operation_records = log.take();
@@ -226,20 +216,46 @@ ProgramPlanner::ProgramPlanner(const MachineFile& file, const kinematics::Machin
 ProgramPlanner::~ProgramPlanner() = default;
 
 void ProgramPlanner::take(const ClRecord& record) {
-    if (std::holds_alternative<toolpath::ToolCall>(record.statement) ||
-        std::holds_alternative<toolpath::HomeReturn>(record.statement))
-        state_->at_home = true;
-    if (const auto* location = locationOf(record.statement)) {
-        const bool from_home = std::exchange(state_->at_home, false);
-        state_->axes.push({location->axis, record.line, isCut(record.statement) && !from_home});
-    }
-    state_->waiting.push_back(record);
-    state_->drain();
+    state_->axes.take(record);
+    for (PlannedRecord planned; state_->axes.next(planned);) state_->run(planned);
 }
 
 PostSummary ProgramPlanner::finish() {
     state_->axes.finish();
-    state_->drain();
+    for (PlannedRecord planned; state_->axes.next(planned);) state_->run(planned);
+    state_->finish();
+    return state_->summary;
+}
+
+PostSummary ProgramPlanner::run(const RecordSource& source, Threads threads) {
+    ClRecord record;
+    if (threads == Threads::One) {
+        while (source(record)) take(record);
+        return finish();
+    }
+    BatchQueue queue;
+    AxisStage& axes = state_->axes;
+    std::thread reading([&] {
+        // Whatever happens, the queue is closed, or the other side would wait for ever.
+        const auto closed = queue.closeAtEnd();
+        std::vector<PlannedRecord> batch;
+        const auto pass = [&] {
+            for (PlannedRecord planned; axes.next(planned);) {
+                batch.push_back(std::move(planned));
+                if (batch.size() == BatchQueue::batch_records) queue.push(std::exchange(batch, {}));
+            }
+        };
+        while (source(record)) {
+            axes.take(record);
+            pass();
+        }
+        axes.finish();
+        pass();
+        queue.push(std::move(batch));
+    });
+    for (std::vector<PlannedRecord> batch; queue.pop(batch);)
+        for (const PlannedRecord& planned : batch) state_->run(planned);
+    reading.join();
     state_->finish();
     return state_->summary;
 }

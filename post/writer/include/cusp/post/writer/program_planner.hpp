@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,6 +89,13 @@ public:
     ~ProgramPlanner();
     ProgramPlanner(const ProgramPlanner&) = delete;
     ProgramPlanner& operator=(const ProgramPlanner&) = delete;
+
+    /// Answers false behind the last record.
+    using RecordSource = std::function<bool(toolpath::ClRecord&)>;
+    enum class Threads : std::uint8_t { One, Two };
+    /// Everything in one call. With two threads, `source` is called and the rotary axes are planned in a thread of its own,
+    /// while this one makes the program; the program is the same. `source` must not throw.
+    PostSummary run(const RecordSource& source, Threads threads);
 
     void take(const toolpath::ClRecord& record);
     /// Ends the program. The steps are only good to run when `report` has no errors.
