@@ -33,6 +33,27 @@ inline InspectionReport qifReport(std::size_t points, Verdict verdict) {
     return report;
 }
 
+/// The same with two sections: the even points, and the first three alone.
+inline InspectionReport qifReportWithSections(std::size_t points, Verdict verdict) {
+    InspectionReport report = qifReport(points, verdict);
+    report.best_fit.decision.uncertainty.standard_mm = 0.0001;
+    for (const double position_mm : {-5.0, 30.5}) {
+        SectionResult section;
+        section.axis = 1;
+        section.position_mm = position_mm;
+        section.label = sectionLabel(1, position_mm);
+        std::vector<double> deviations_mm;
+        for (std::size_t i = 0; i + 1 < points; i += 2) {
+            if (position_mm > 0.0 && i > 4) break;
+            section.points.push_back(static_cast<std::uint32_t>(i));
+            deviations_mm.push_back(report.best_fit.deviations[i].deviation_mm);
+        }
+        section.statistics = statisticsOf(deviations_mm);
+        report.sections.push_back(section);
+    }
+    return report;
+}
+
 inline std::string qifText(const InspectionReport& report) {
     std::string text;
     const auto done = writeQif(report, [&text](std::string_view piece) -> base::Result<void> {

@@ -48,6 +48,27 @@ TEST(QifWriter, IsReadBackAsItWas) {
     EXPECT_NEAR(results.characteristics[0].upper.value_or(0.0), 0.015, 1e-15);
 }
 
+TEST(QifWriter, SectionsAreCharacteristicsOfTheirOwn) {
+    InspectionReport report = test::qifReportWithSections(100, Verdict::Reject);
+    report.best_fit.decision.limits = {-0.0015, 0.0045};
+    const QifResults results = readGood(test::qifText(report));
+    ASSERT_EQ(results.measurements.size(), 3U);
+    ASSERT_EQ(results.characteristics.size(), 3U);
+    EXPECT_EQ(results.characteristics[1].name, "line profile Y=-5");
+    EXPECT_EQ(results.characteristics[2].name, "line profile Y=30.5");
+    EXPECT_EQ(results.characteristics[1].kind, "LineProfile");
+    EXPECT_NEAR(results.characteristics[1].upper.value_or(0.0), 0.006, 1e-15);
+    EXPECT_DOUBLE_EQ(results.measurements[1].value, 0.006);  // points of all deviations, −3 µm … +3 µm
+    EXPECT_EQ(results.measurements[1].status, "FAIL");
+    EXPECT_DOUBLE_EQ(results.measurements[2].value, 0.006);  // −3, −1, +1 µm
+    EXPECT_EQ(results.measurements[2].status, "FAIL");
+    report.best_fit.decision.limits = {-0.0045, 0.0015};
+    EXPECT_EQ(readGood(test::qifText(report)).measurements[1].status, "FAIL");
+    EXPECT_EQ(readGood(test::qifText(report)).measurements[2].status, "PASS");
+    report.doubts.emplace_back("a reason");
+    EXPECT_EQ(readGood(test::qifText(report)).measurements[2].status, "INDETERMINATE");
+}
+
 TEST(QifWriter, SaysTheDecision) {
     const auto status = [](Verdict verdict) {
         pugi::xml_document document;

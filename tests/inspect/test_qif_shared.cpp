@@ -192,6 +192,10 @@ TEST_F(QifFiles, WhatIsWrittenFollowsTheSchema) {
             const std::string said = lint(test::qifText(test::qifReport(points, verdict)));
             EXPECT_TRUE(said.ends_with("cusp_schema.qif validates\n")) << said;
         }
+    for (const Verdict verdict : {Verdict::NotAsked, Verdict::Accept, Verdict::Undecided}) {
+        const std::string said = lint(test::qifText(test::qifReportWithSections(50, verdict)));
+        EXPECT_TRUE(said.ends_with("cusp_schema.qif validates\n")) << said;
+    }
     // The test can fail: a document with an element too many does not pass.
     std::string wrong = test::qifText(test::qifReport(3, Verdict::Accept));
     wrong.insert(wrong.find("  <FileUnits>"), "<Surplus/>");

@@ -142,6 +142,7 @@ FoundPose searchPose(std::span<const Vector3> points, const geometry::NominalSha
     for (const geometry::Matrix3& rotation : uniformRotations(options.rotations))
         starts.push_back(poseBetween(from, to, rotation));
     std::vector<FoundPose> found;
+    found.reserve(starts.size());
     for (std::size_t i = 0; i < starts.size(); ++i) found.push_back({starts[i], 0.0, i < options.candidates.size()});
     // Few points and short rounds first: most starts show soon that they lead nowhere.
     constexpr int first_iterations = 5;

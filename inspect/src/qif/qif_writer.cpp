@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// The elements in the order the schema of QIF 3.0 wants them; every id a constant, since every list holds one.
+// The elements in the order the schema of QIF 3.0 wants them; ids are constants, those of sections follow them.
+#include "qif/qif_sections.hpp"
+
 #include <cusp/base/hash.hpp>
 #include <cusp/base/number_text.hpp>
 #include <cusp/base/version.hpp>
@@ -52,6 +54,8 @@ public:
         for (std::size_t i = 0; i < judged_.deviations.size(); ++i)
             if (counts(i)) ++points_;
         has_limits_ = judged_.decision.verdict != Verdict::NotAsked;
+        sections_ = qifSections(
+            report, {feature_nominal_id, feature_item_id, measured_feature_id, measured_characteristic_id + 1});
     }
 
     base::Result<void> write() {
@@ -119,7 +123,7 @@ private:
     </Application>
   </Header>
 )",
-                            measured_characteristic_id, identity(), base::version());
+                            sections_.last_id, identity(), base::version());
     }
 
     void standards() {
@@ -187,21 +191,21 @@ private:
         const ToleranceLimits& limits = judged_.decision.limits;
         out_ += fmt::format(R"(  <Characteristics>
     <FormalStandardId>{0}</FormalStandardId>
-    <CharacteristicDefinitions n="1">
+    <CharacteristicDefinitions n="{8}">
       <SurfaceProfileCharacteristicDefinition id="{1}">
         <ToleranceValue>{2}</ToleranceValue>
         <OuterDisposition>{3}</OuterDisposition>
       </SurfaceProfileCharacteristicDefinition>
-    </CharacteristicDefinitions>
-    <CharacteristicNominals n="1">
+{10}    </CharacteristicDefinitions>
+    <CharacteristicNominals n="{9}">
       <SurfaceProfileCharacteristicNominal id="{4}">
         <CharacteristicDefinitionId>{1}</CharacteristicDefinitionId>
         <FeatureNominalIds n="1">
           <Id>{5}</Id>
         </FeatureNominalIds>
       </SurfaceProfileCharacteristicNominal>
-    </CharacteristicNominals>
-    <CharacteristicItems n="1">
+{11}    </CharacteristicNominals>
+    <CharacteristicItems n="{9}">
       <SurfaceProfileCharacteristicItem id="{6}">
         <Name>surface profile</Name>
         <FeatureItemIds n="1">
@@ -209,12 +213,13 @@ private:
         </FeatureItemIds>
         <CharacteristicNominalId>{4}</CharacteristicNominalId>
       </SurfaceProfileCharacteristicItem>
-    </CharacteristicItems>
+{12}    </CharacteristicItems>
   </Characteristics>
 )",
                             standard_id, characteristic_definition_id, decimal(limits.upper_mm - limits.lower_mm),
                             decimal(limits.upper_mm), characteristic_nominal_id, feature_nominal_id,
-                            characteristic_item_id, feature_item_id);
+                            characteristic_item_id, feature_item_id, sections_.count > 0 ? 2 : 1, 1 + sections_.count,
+                            sections_.definition, sections_.nominals, sections_.items);
     }
 
     void results() {
@@ -280,7 +285,7 @@ private:
     void measuredCharacteristic() {
         const DeviationStatistics& s = judged_.statistics;
         out_ += fmt::format(R"(        <MeasuredCharacteristics>
-          <CharacteristicMeasurements n="1">
+          <CharacteristicMeasurements n="{}">
             <SurfaceProfileCharacteristicMeasurement id="{}">
               <Status>
                 <CharacteristicStatusEnum>{}</CharacteristicStatusEnum>
@@ -293,11 +298,12 @@ private:
               <WorstPositiveDeviation>{}</WorstPositiveDeviation>
               <WorstNegativeDeviation>{}</WorstNegativeDeviation>
             </SurfaceProfileCharacteristicMeasurement>
-          </CharacteristicMeasurements>
+{}          </CharacteristicMeasurements>
         </MeasuredCharacteristics>
 )",
-                            measured_characteristic_id, characteristicStatus(), characteristic_item_id,
-                            measured_feature_id, decimal(s.profile_mm), decimal(s.max_mm), decimal(s.min_mm));
+                            1 + sections_.count, measured_characteristic_id, characteristicStatus(),
+                            characteristic_item_id, measured_feature_id, decimal(s.profile_mm), decimal(s.max_mm),
+                            decimal(s.min_mm), sections_.measurements);
     }
 
     std::string_view characteristicStatus() const {
@@ -321,6 +327,7 @@ private:
     std::string out_;
     std::size_t points_ = 0;
     bool has_limits_ = false;
+    QifSections sections_;
     base::Diagnostics failure_;
 };
 
