@@ -8,6 +8,7 @@
 #include "job_file.hpp"
 #include "machine_lookup.hpp"
 #include "post_text.hpp"
+#include "program_file.hpp"
 #include "progress_bar.hpp"
 #include "setup_lookup.hpp"
 #include "setup_sheet.hpp"
@@ -196,54 +197,6 @@ CycleTimeOptions cycleTimeOptions(const Flags& flags, const post::PostOptions& o
     return out;
 }
 
-/// Keeps the first failure of a write until the end: the writer's steps have no way to answer.
-class ProgramFile {
-public:
-    explicit ProgramFile(base::OutputTarget target) : target_(std::move(target)) {}
-    void write(std::string_view text) {
-        if (!failure_.hasErrors())
-            if (const auto done = target_.write(text); !done) failure_ = done.error();
-    }
-    base::Result<void> commit() {
-        if (failure_.hasErrors()) return base::fail(failure_);
-        return target_.commit();
-    }
-
-private:
-    base::OutputTarget target_;
-    base::Diagnostics failure_;
-};
-
-/// What is written beside the program, when asked for.
-struct Companions {
-    std::optional<ProgramFile> map;
-    std::optional<ProgramFile> sheet;
-
-    static base::Result<Companions> open(const Flags& flags) {
-        Companions out;
-        for (auto [path, file] : {std::pair{&flags.map, &out.map}, std::pair{&flags.setup_sheet, &out.sheet}}) {
-            if (path->empty()) continue;
-            auto target = base::OutputTarget::open(*path);
-            if (!target) return base::fail(std::move(target).error());
-            file->emplace(*std::move(target));
-        }
-        if (out.map) out.map->write("block,program_line,cl_line\n");
-        return out;
-    }
-    base::Result<void> commit() {
-        for (auto* file : {&map, &sheet})
-            if (*file)
-                if (auto done = (*file)->commit(); !done) return done;
-        return {};
-    }
-};
-
-/// A line of the map: block number, line of the program, line of the CL file; empty where there is none.
-std::string mapLine(const post::WrittenBlock& block) {
-    const auto number = [](auto value) { return value == 0 ? std::string() : std::to_string(value); };
-    return number(block.number) + ',' + std::to_string(block.program_line) + ',' + number(block.cl_line) + '\n';
-}
-
 ExitCode finish(const Flags& flags, const PostOutcome& outcome, ProgramFile& file, Companions& companions) {
     if (!outcome.report.hasErrors()) {
         if (const auto done = file.commit(); !done) return failWith(done.error());
@@ -275,7 +228,7 @@ ExitCode runPost(const Flags& flags) {
     auto target = base::OutputTarget::open(flags.output);
     if (!target) return failWith(target.error());
     ProgramFile file(*std::move(target));
-    auto companions = Companions::open(flags);
+    auto companions = Companions::open(flags.map, flags.setup_sheet);
     if (!companions) return failWith(companions.error());
 
     PostOutcome outcome{.cl_file = flags.cl_file, .output = flags.output, .machine = *machine};

@@ -134,7 +134,11 @@ public:
     void operator()(const toolpath::Remark&) {}
     void operator()(const toolpath::Dwell&) {}
     void operator()(const toolpath::ProgramEnd&) {}
-    void operator()(const toolpath::CutterCompensation& command) { change().compensation = command.side; }
+    void operator()(const toolpath::CutterCompensation& command) {
+        change().compensation = command.side;
+        const bool off = command.side == toolpath::CutterCompensation::Side::Off;
+        if (off || command.offset_number) process_.edge = off ? std::nullopt : command.offset_number;
+    }
     void operator()(const toolpath::PathTolerance&) {}
     /// Refused before it gets here.
     void operator()(const toolpath::SplineMotion&) {}

@@ -20,6 +20,7 @@ struct ExpectedProcess {
     std::optional<double> rpm;  ///< absent when the CL file gives none, or a cutting speed
     std::optional<toolpath::CoolantCommand::Kind> coolant;
     toolpath::CutterCompensation::Side compensation = toolpath::CutterCompensation::Side::Off;
+    std::optional<std::int64_t> edge;  ///< D, where CUTCOM names one
     /// Which programming frame the points are in, in the order these come in.
     std::size_t frame = 0;
     std::optional<std::int64_t> tool_number;

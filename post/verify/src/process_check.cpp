@@ -136,7 +136,7 @@ std::string coolantProblem(const ModalSnapshot& state, const ExpectedProcess& ex
 }
 
 /// An edge the program never chose is the first: the one a tool change sets (MD20270 as delivered).
-std::string lengthProblem(const ModalSnapshot& state, int wanted) {
+std::string lengthProblem(const ModalSnapshot& state, std::int64_t wanted) {
     const int edge = state.cutting_edge.value_or(1);
     if (edge == wanted) return {};
     if (edge == 0) return "the tool length is not applied (D0) in a feed move";
@@ -200,7 +200,7 @@ void checkProcess(const reader::ExecutedMotion& motion, const ExpectedProcess& e
     report(Severity::Error, "verify.spindle-direction", turnProblem(state, expected));
     report(Severity::Error, "verify.spindle-speed", speedProblem(state, expected, limits.speed_tolerance_rpm));
     report(Severity::Error, "verify.tool", toolProblem(state, expected));
-    report(Severity::Error, "verify.tool-length", lengthProblem(state, limits.cutting_edge));
+    report(Severity::Error, "verify.tool-length", lengthProblem(state, expected.edge.value_or(limits.cutting_edge)));
     report(Severity::Error, "verify.plane", planeProblem(state, limits.plane));
     report(Severity::Error, "verify.compensation", compensationProblem(state, expected));
     report(

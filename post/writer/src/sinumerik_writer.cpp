@@ -47,6 +47,7 @@ struct SinumerikWriter::State {
     BlockWriter text;
     Orientation orientation = Orientation::Rotary;
     std::optional<RadiusCompensation> compensation;  ///< for the next straight block
+    std::int64_t told_edge = 1;                      ///< D
 
     [[nodiscard]] bool hasRotary() const { return !text.rotaryNames().empty(); }
     [[nodiscard]] const std::string& offsetName(const std::string& name) const {
@@ -76,6 +77,7 @@ struct SinumerikWriter::State {
     }
 
     void write(const GoHome&) {
+        told_edge = 1;  // approaches choose it
         text.forgetPosition();
         for (const std::string& block : file.control.sequence.home)
             text.block(expandPlaceholders(block, [this](std::string_view name) { return homeWords(name); }));
@@ -237,10 +239,14 @@ struct SinumerikWriter::State {
         text.word(side == CutterCompensation::Side::Off    ? "G40"
                   : side == CutterCompensation::Side::Left ? "G41"
                                                            : "G42");
-        if (compensation->offset_number && side != CutterCompensation::Side::Off) {
-            text.value("D", *compensation->offset_number, 0);
+        // The D of the compensation is the edge of the whole tool: behind it the first one holds again.
+        const bool off = side == CutterCompensation::Side::Off;
+        const std::int64_t edge = off ? 1 : compensation->offset_number.value_or(told_edge);
+        if (edge != told_edge) {
+            text.value("D", edge, 0);
             text.forgetLinear();
         }
+        told_edge = edge;
         compensation.reset();
     }
 
