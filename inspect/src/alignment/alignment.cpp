@@ -77,14 +77,12 @@ public:
         const Vector6 start = fits ? coarse() : Vector6::Zero();
         ResidualField field(points_, options_.weights, nominal_, model_, options_.offset_mm);
         tolerance_mm_ = 8.0 * std::numeric_limits<double>::epsilon() * field.magnitude();
-        field.moveTo(Vector6::Zero());
+        takeStart();
+        field.moveTo(start);
         field.useEdgeRule(EdgeRule::Normal);
         field.chooseParticipants(options_.edge_tolerance_mm);
-        takeStart(field.normalEquations());
-        if (fits) {
-            field.moveTo(start);
+        if (fits)
             if (auto problem = solve(field)) return base::fail(*std::move(problem));
-        }
         finish(field);
         return summary_;
     }
@@ -107,7 +105,13 @@ private:
         return field.parameters();
     }
 
-    void takeStart(const NormalEquations& equations) {
+    /// With the sample: far from the nominal every footpoint is a search.
+    void takeStart() {
+        ResidualField field(sampled(points_), sampled(options_.weights), nominal_, model_, options_.offset_mm);
+        field.moveTo(Vector6::Zero());
+        field.useEdgeRule(EdgeRule::Normal);
+        field.chooseParticipants(options_.edge_tolerance_mm);
+        const NormalEquations equations = field.normalEquations();
         summary_.start_rms_mm =
             equations.weight_sum > 0.0 ? std::sqrt(equations.square_sum / equations.weight_sum) : 0.0;
     }

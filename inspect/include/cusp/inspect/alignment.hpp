@@ -67,9 +67,9 @@ struct AlignmentSummary {
     Vector3 rotation_vector_rad = Vector3::Zero();
     Vector3 translation_mm = Vector3::Zero();
     std::array<bool, 6> locked{};
-    double start_rms_mm = 0.0;
-    double rms_mm = 0.0;      ///< of the residuals that took part
-    double minimax_mm = 0.0;  ///< largest |residual| that took part
+    double start_rms_mm = 0.0;  ///< of a sample of 2000 points
+    double rms_mm = 0.0;        ///< of the residuals that took part
+    double minimax_mm = 0.0;    ///< largest |residual| that took part
 
     /// Covariance of (tx, ty, tz, rx, ry, rz) in mm and rad for translation and rotation about `pivot_mm` (in the nominal
     /// frame), from σ² = Σwe²/(N − free freedoms); zero for locked ones. Of a minimax fit, that of least squares there.
