@@ -23,6 +23,7 @@ void addInspectCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);
 void addPlanCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
+void addSimulateCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);
 void addTextureCommand(CLI::App& app, Action& action);
 void addSendCommand(CLI::App& app, Action& action);

@@ -33,6 +33,7 @@ ExitCode run(int argc, char** argv) {
     addInspectCommand(app, action);
     addMachineCommand(app, action);
     addSchemaCommand(app, action);
+    addSimulateCommand(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

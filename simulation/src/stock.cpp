@@ -37,7 +37,7 @@ base::Result<DexelLattice> checked(const Eigen::AlignedBox3d& box, const StockOp
         return base::fail("simulation.resolution",
                           fmt::format("a resolution of {:g} mm is coarser than the stock is wide ({:g} mm)", resolution,
                                       size.minCoeff()));
-    const DexelLattice lattice = DexelLattice::over(box, resolution);
+    DexelLattice lattice = DexelLattice::over(box, resolution);
     const std::uint64_t needed = Stock::memoryOf(lattice);
     constexpr double mb = 1e6;
     if (needed > options.memory_bytes)
@@ -51,9 +51,9 @@ base::Result<DexelLattice> checked(const Eigen::AlignedBox3d& box, const StockOp
     return lattice;
 }
 
-/// Fills every tile, in parallel, with the spans `spansOf(axis, u, v, out)` appends for its rays.
+/// Fills every tile, in parallel, with the spans `spans_of(axis, u, v, out)` appends for its rays.
 template <class SpansOf>
-void fill(Stock& stock, const SpansOf& spansOf) {
+void fill(Stock& stock, const SpansOf& spans_of) {
     for (int axis = 0; axis < 3; ++axis) {
         auto& tiles = StockAccess::tiles(stock, axis);
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size()), [&](const auto& range) {
@@ -64,7 +64,7 @@ void fill(Stock& stock, const SpansOf& spansOf) {
                 for (std::size_t i = frame.first_u; i < frame.first_u + DexelTile::side; ++i)
                     for (std::size_t j = frame.first_v; j < frame.first_v + DexelTile::side; ++j) {
                         spans.clear();
-                        if (i < frame.end_u && j < frame.end_v) spansOf(axis, i, j, spans);
+                        if (i < frame.end_u && j < frame.end_v) spans_of(axis, i, j, spans);
                         tile->append(frame.index(i, j), spans);
                     }
                 tiles[index] = std::move(tile);

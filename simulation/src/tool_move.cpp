@@ -44,13 +44,24 @@ CutterLocation PathCollector::inPart(const CutterLocation& location) const {
 
 void PathCollector::call(const toolpath::ToolCall& tool) {
     placed_ = false;  // the change happens away from the part
-    shaped_ = tool.cutter.has_value();
     told_ = false;
-    if (shaped_) path_.cutters.push_back(*tool.cutter);
+    const toolpath::Tool* known = tool_;
+    if (known == nullptr && library_ != nullptr && tool.number) known = library_->findNumber(*tool.number);
+    if (known == nullptr && library_ != nullptr) known = library_->findName(tool.name);
+    shaped_ = known != nullptr || tool.cutter.has_value();
+    if (!shaped_) return;
+    path_.cutters.push_back(known != nullptr ? known->cutter() : *tool.cutter);
+    path_.tools.push_back(known);
 }
 
 void PathCollector::moveTo(const CutterLocation& location, MotionKind kind, std::uint32_t line) {
     ++path_.locations;
+    if (!shaped_ && tool_ != nullptr) {
+        // A file that calls no tool at all.
+        path_.cutters.push_back(tool_->cutter());
+        path_.tools.push_back(tool_);
+        shaped_ = true;
+    }
     if (!shaped_) {
         if (!told_)
             report_.error("simulation.no-cutter",

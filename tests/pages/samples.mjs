@@ -187,3 +187,58 @@ export function capabilitySample({ parts = 24, seed = 11 } = {}) {
         ],
     };
 }
+
+/** A block with a groove across, as `cusp simulate` writes it: a coarse mesh, a path of two passes, one collision. */
+export function simulationSample({ collisions = 1 } = {}) {
+    const n = 24;
+    const depth = (x, y) => -4 * Math.exp(-((y - 0.2 * x) ** 2) / 18);
+    const block = (height) => {
+        const vertices_mm = [];
+        const triangles = [];
+        const at = (i) => -20 + (40 * i) / n;
+        for (let i = 0; i <= n; ++i) for (let j = 0; j <= n; ++j) vertices_mm.push(at(i), at(j), height(at(i), at(j)));
+        const below = vertices_mm.length / 3;
+        for (let i = 0; i <= n; ++i) for (let j = 0; j <= n; ++j) vertices_mm.push(at(i), at(j), -12);
+        const index = (i, j) => i * (n + 1) + j;
+        for (let i = 0; i < n; ++i) {
+            for (let j = 0; j < n; ++j) {
+                const [a, b, c, d] = [index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1)];
+                triangles.push(a, b, c, a, c, d, below + a, below + c, below + b, below + a, below + d, below + c);
+            }
+            for (const [a, b] of [[index(i, 0), index(i + 1, 0)], [index(i + 1, n), index(i, n)], [index(0, i + 1), index(0, i)], [index(n, i), index(n, i + 1)]]) {
+                triangles.push(a, below + a, below + b, a, below + b, b);
+            }
+        }
+        return { vertices_mm, triangles };
+    };
+    const packed = (list) => Buffer.from(list.buffer).toString("base64");
+    const pack = ({ vertices_mm, triangles }) => ({ vertices_mm: packed(Float32Array.from(vertices_mm)), triangles: packed(Uint32Array.from(triangles)) });
+    const after = block(depth);
+    const path = { tip_mm: [], axis: [], move: [], tool: [], rapid: [], line: [], every: 1 };
+    for (let i = 0; i <= 80; ++i) {
+        const x = i <= 40 ? -20 + i : 60 - i;
+        const lean = 0.3 * Math.sin(i / 13);
+        path.tip_mm.push(x, 0.2 * x, -4);
+        path.axis.push(Math.sin(lean), 0, Math.cos(lean));
+        path.move.push(i);
+        path.tool.push(0);
+        path.rapid.push(i < 2 ? 1 : 0);
+        path.line.push(i + 9);
+    }
+    const hit = { with: "stock", part: "holder", move: 30, cl_line: 39, position_mm: [9, 4, 0.4], depth_mm: 0.812, volume_mm3: 14.2 };
+    return {
+        schema: 1, command: "simulate", version: "0.1.0", file: "parts/groove.cls", nominal: "groove.toml", program: false,
+        moves: 81, resolution_mm: 0.1, mesh_mm: 1.7, seconds: 0.4, removed_volume_mm3: 2105.4, tolerance_mm: 0.05,
+        overcut_max_mm: 0.0123, undercut_max_mm: 0.0481, within_tolerance_percent: 100, collision_volume_mm3: 14.2 * collisions,
+        collision_count: collisions, collisions: Array.from({ length: collisions }, () => hit),
+        machine: null, machine_range_violations: null, machine_range: [],
+        before: pack(block(() => 0)), after: pack(after),
+        deviation_mm: packed(Float32Array.from(after.vertices_mm.filter((_, i) => i % 3 === 2).map((z, i) => (z > -0.2 || z < -11 ? NaN : 0.06 * Math.sin(i / 40))))),
+        path,
+        tool_shapes: [{ name: "BALL_6", bodies: [
+            { part: "cutter", profile_mm: [[0, 0], [1.5, 0.4], [2.6, 1.5], [3, 3], [3, 12], [0, 12]] },
+            { part: "shank", profile_mm: [[0, 12], [3, 12], [4, 26], [0, 26]] },
+            { part: "holder", profile_mm: [[0, 26], [9, 26], [12, 40], [0, 40]] },
+        ] }],
+    };
+}

@@ -7,6 +7,7 @@
 #include <cusp/geometry/cutter.hpp>
 #include <cusp/geometry/frames.hpp>
 #include <cusp/toolpath/cl_record.hpp>
+#include <cusp/toolpath/tool_library.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,8 @@ struct ToolMove {
 struct CutterPath {
     std::vector<ToolMove> moves;
     std::vector<geometry::Cutter> cutters;
+    /// As `cutters`: the library's tool where a cutter is one's, else null.
+    std::vector<const toolpath::Tool*> tools;
     std::size_t locations = 0;  ///< GOTO, holes and ends of arcs
 };
 
@@ -37,6 +40,10 @@ public:
     /// `report` gets `simulation.no-cutter` where the tool moves and the file has not said its shape: those moves are left
     /// out. It must outlive the collector.
     PathCollector(std::string file, double chord_tolerance_mm, base::Diagnostics& report);
+    /// Tools the library has by number or name are taken from there, whatever shape the file tells. It must outlive the path.
+    void lookUpIn(const toolpath::ToolLibrary& library) { library_ = &library; }
+    /// Every tool of the file is this one. It must outlive the path.
+    void useTool(const toolpath::Tool& tool) { tool_ = &tool; }
     void take(const toolpath::ClRecord& record);
     [[nodiscard]] CutterPath finish() { return std::move(path_); }
 
@@ -50,6 +57,8 @@ private:
     std::string file_;
     double chord_tolerance_mm_;
     base::Diagnostics& report_;
+    const toolpath::ToolLibrary* library_ = nullptr;
+    const toolpath::Tool* tool_ = nullptr;
     CutterPath path_;
     geometry::RigidTransform part_from_programming_ = geometry::RigidTransform::Identity();
     toolpath::CutterLocation at_;  ///< in the programming frame
