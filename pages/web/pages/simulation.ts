@@ -56,7 +56,7 @@ class Player {
     this.button = h("button", { type: "button", "aria-pressed": "false" }, "Run");
     this.slider.addEventListener("input", () => this.go(Number(this.slider.value)));
     this.button.addEventListener("click", () => (this.timer ? this.stop() : this.run()));
-    this.element = h("div", { class: "controls" }, this.button, this.slider, this.said);
+    this.element = h("div", { class: "player" }, h("div", { class: "choice" }, this.button), this.slider, this.said);
     this.go(0);
   }
 
@@ -125,7 +125,7 @@ function collisionsCard(input: SimulationInput, player: Player): Child {
     const out = h("button", { type: "button" }, "Show");
     out.setAttribute("aria-label", `Show move ${item.move + 1}`);
     out.addEventListener("click", () => player.goToMove(item.move));
-    return out;
+    return h("span", { class: "choice" }, out);
   };
   const rows = table("Collisions in the order of the path", [
     { name: "move", cell: (item: CollisionItem) => count(item.move + 1) },

@@ -64,9 +64,9 @@ export class SolidView implements Drawing {
     this.tools = data.tools.map((tool) => this.toolGroup(tool));
     this.renderer = this.makeRenderer();
     if (!this.renderer) return;
-    const sun = new DirectionalLight(0xffffff, 2.2);
+    const sun = new DirectionalLight(0xffffff, 2.6);
     sun.position.set(-0.6, -0.7, 1);
-    this.scene.add(this.before, this.after, this.lines, this.marks, ...this.tools, sun, new HemisphereLight(0xffffff, 0x777777, 1.4));
+    this.scene.add(this.before, this.after, this.lines, this.marks, ...this.tools, sun, new HemisphereLight(0xffffff, 0x999999, 2.2));
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
