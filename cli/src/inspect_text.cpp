@@ -59,6 +59,7 @@ std::string scallopsText(const InspectionReport& report) {
     std::string out = fmt::format("scallops, planned {:.6g} mm apart\n", report.planned_step_over_mm);
     for (const auto& section : report.sections) {
         std::vector<double> deviations_mm;
+        deviations_mm.reserve(section.points.size());
         for (const std::uint32_t point : section.points)
             deviations_mm.push_back(report.judged().deviations[point].deviation_mm);
         const auto found = inspect::evaluateSection(section.arc_length_mm, deviations_mm, report.planned_step_over_mm);

@@ -28,6 +28,7 @@ std::vector<Vector3> sampled(const std::vector<Vector3>& points) {
     constexpr std::size_t most = 2000;
     if (points.size() <= most) return points;
     std::vector<Vector3> out;
+    out.reserve(most);
     for (std::size_t i = 0; i < most; ++i) out.push_back(points[i * points.size() / most]);
     return out;
 }

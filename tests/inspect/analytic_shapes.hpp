@@ -83,7 +83,8 @@ public:
         std::size_t best = 0;
         for (std::size_t i = 1; i < grid_.size(); ++i)
             if ((grid_[i] - q).squaredNorm() < (grid_[best] - q).squaredNorm()) best = i;
-        double u = double(best / (cells + 1)) / cells;
+        const std::size_t row = best / (cells + 1);
+        double u = double(row) / cells;
         double v = double(best % (cells + 1)) / cells;
         newton(q, u, v);
         Footpoint out;
@@ -107,7 +108,7 @@ private:
 
     Local evaluate(double u, double v) const {
         Local l;
-        const std::array<double, 3> U{1, u, u * u}, Ud{0, 1, 2 * u}, V{1, v, v * v}, Vd{0, 1, 2 * v};
+        const std::array<double, 3> U{1, u, u * u}, u_slope{0, 1, 2 * u}, V{1, v, v * v}, v_slope{0, 1, 2 * v};
         for (std::size_t k = 0; k < 3; ++k) {
             const auto row = static_cast<Eigen::Index>(k);
             std::array<double, 6> s{};
@@ -115,10 +116,10 @@ private:
                 for (std::size_t j = 0; j < 3; ++j) {
                     const double c = c_[k][i][j];
                     s[0] += c * U[i] * V[j];
-                    s[1] += c * Ud[i] * V[j];
-                    s[2] += c * U[i] * Vd[j];
+                    s[1] += c * u_slope[i] * V[j];
+                    s[2] += c * U[i] * v_slope[j];
                     s[3] += i == 2 ? 2 * c * V[j] : 0;
-                    s[4] += c * Ud[i] * Vd[j];
+                    s[4] += c * u_slope[i] * v_slope[j];
                     s[5] += j == 2 ? 2 * c * U[i] : 0;
                 }
             l.p[row] = s[0] + offset_[row];
