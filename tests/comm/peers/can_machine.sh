@@ -4,7 +4,8 @@
 # Runs a command where SocketCAN is: on this kernel, or in a small machine (QEMU) with Debian's kernel when this one has
 # no CAN.
 #   can_machine.sh CACHE COMMAND [ARGUMENT…]
-# The machine sees this file system read-only, so that the command needs no copying; it has vcan0 (CAN FD too). The kernel
+# The machine sees this file system read-only, so that the command needs no copying; it has vcan0 (CAN FD too), and where
+# iproute2 is installed the pair vx0 and vx1, on which netem does harm (on vcan it has no effect). The kernel
 # is Debian's linux-image-amd64, fetched once as a package into the folder CACHE and not installed. Exit code: that of the
 # command; 77 when neither way exists here, with the reason.
 set -euo pipefail
@@ -22,7 +23,7 @@ busybox=$(command -v busybox) || skip "busybox-static is not installed"
 
 # In the order in which they need each other.
 modules="virtio_ring virtio virtio_pci_modern_dev virtio_pci_legacy_dev virtio_pci netfs fscache 9pnet 9pnet_virtio 9p
-  can can-dev can-raw can-isotp vcan"
+  can can-dev can-raw can-isotp vcan vxcan sch_netem"
 
 fetch_kernel() {
   local package
@@ -31,7 +32,7 @@ fetch_kernel() {
   rm -rf "$cache" && mkdir -p "$cache/unpacked"
   (cd "$cache" && apt-get -qq download "$package" >/dev/null 2>&1) || skip "$package could not be fetched"
   dpkg-deb --fsys-tarfile "$cache"/linux-image-*.deb | tar -x -C "$cache/unpacked" --wildcards './boot/vmlinuz-*' '*/net/can/*' \
-    '*/net/9p/*' '*/fs/9p/*' '*/fs/netfs/*' '*/fs/fscache/*' '*/drivers/virtio/*'
+    '*/net/9p/*' '*/sched/sch_netem.ko' '*/fs/9p/*' '*/fs/netfs/*' '*/fs/fscache/*' '*/drivers/virtio/*'
   mkdir "$cache/modules"
   local module
   for module in $modules; do
@@ -39,9 +40,9 @@ fetch_kernel() {
   done
   mv "$cache"/unpacked/boot/vmlinuz-* "$cache/vmlinuz"
   rm -rf "$cache/unpacked" "$cache"/linux-image-*.deb
-  touch "$cache/complete"
+  touch "$cache/complete-2"
 }
-[ -e "$cache/complete" ] || fetch_kernel
+[ -e "$cache/complete-2" ] || fetch_kernel
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -51,7 +52,8 @@ cp "$busybox" "$root/bin/busybox"
 cp "$cache"/modules/*.ko "$root/modules/"
 {
   printf 'cd %q\n' "$PWD"
-  printf 'export LC_ALL=C.UTF-8 TMPDIR=/dev/shm\n'
+  printf 'export LC_ALL=C.UTF-8 TMPDIR=/dev/shm PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin\n'
+  echo 'ip link add vx0 type vxcan peer name vx1 2>/dev/null && for i in 0 1; do ip link set vx$i mtu 72 up; done'
   printf '%q ' "$@"
   echo
 } >"$root/command"
