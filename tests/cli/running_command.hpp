@@ -74,6 +74,8 @@ public:
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     const std::string& said() const { return said_; }
+    /// What has been said so far is no answer to what is typed next.
+    void forget() { said_.clear(); }
 
 private:
     /// False when it says nothing more.

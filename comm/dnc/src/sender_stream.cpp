@@ -61,6 +61,12 @@ bool Sender::mayArmNow() const {
     return options_.mode == TransferMode::Drip && options_.arm && prefilled_ && !arm_asked_;
 }
 
+/// A FIFO that is full takes nothing more until the program runs: the start cannot wait for the last byte.
+bool Sender::mayStartNow() const {
+    return options_.mode == TransferMode::Drip && options_.start && arm_asked_ && !start_asked_ && !exchange_ &&
+           control_state_ == ReceiverState::Armed;
+}
+
 std::optional<Request> Sender::pollStream(double now_s) {
     if (timer_s_ && now_s >= *timer_s_) {
         ++statistics_.timeouts;
@@ -72,6 +78,10 @@ std::optional<Request> Sender::pollStream(double now_s) {
     if (mayArmNow()) {
         arm_asked_ = true;
         exchange_ = Exchange{RequestType::Arm, ++nonce_, {}};
+    }
+    if (mayStartNow()) {
+        start_asked_ = true;
+        exchange_ = Exchange{RequestType::Start, ++nonce_, {}};
     }
     if (exchange_) {
         if (auto request = exchange_->poll(conversation_, now_s)) return request;
@@ -141,7 +151,10 @@ void Sender::onStream(const Acknowledgement& reply, double now_s) {
     if (exchange_ && reply.nonce == exchange_->argument) {
         const Reason result = reply.command_result;
         exchange_.reset();
+        if (result != Reason::None && start_asked_)
+            return close(TransferEnd::Aborted, "dnc.failed", fmt::format("the start failed: {}", toText(result)), true);
         if (result != Reason::None) return abort("dnc.failed", fmt::format("arming failed: {}", toText(result)));
+        outcome_.started = start_asked_;
         last_gain_s_ = now_s;
     }
     if (reply.state == ReceiverState::Failed)

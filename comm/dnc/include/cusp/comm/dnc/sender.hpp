@@ -149,6 +149,7 @@ private:
     [[nodiscard]] bool checkStandstill(double now_s);
     [[nodiscard]] std::uint64_t limit() const;
     [[nodiscard]] bool mayArmNow() const;
+    [[nodiscard]] bool mayStartNow() const;
     // The end.
     void finish(TransferEnd end, std::string code, std::string message, bool resumable);
     void abort(std::string code, std::string message, bool resumable = true);
@@ -180,6 +181,7 @@ private:
     std::uint32_t checked_crc_ = 0;
     bool prefilled_ = false;
     bool arm_asked_ = false;
+    bool start_asked_ = false;  ///< while the rest still comes, in drip mode
     unsigned reopens_ = 0;
     std::optional<double> timer_s_;
     double last_gain_s_ = 0.0;
