@@ -28,9 +28,9 @@ struct ToolMove {
 struct CutterPath {
     std::vector<ToolMove> moves;
     std::vector<geometry::Cutter> cutters;
-    /// As `cutters`: the library's tool where a cutter is one's, else null.
-    std::vector<const toolpath::Tool*> tools;
     std::size_t locations = 0;  ///< GOTO, holes and ends of arcs
+    /// As `cutters`: the library's tool where a cutter is one's, else null. Empty where a path is not read from a file.
+    std::vector<const toolpath::Tool*> tools = {};
 };
 
 /// Takes the records of a CL file one by one. Arcs become chords within `chord_tolerance_mm`; a hole is a move to its depth
