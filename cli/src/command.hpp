@@ -21,6 +21,7 @@ void addEvaluateCommand(CLI::App& app, Action& action);
 void addCapabilityCommand(CLI::App& app, Action& action);
 void addInspectCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);
+void addOptimizeCommand(CLI::App& app, Action& action);
 void addPlanCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);

@@ -8,6 +8,7 @@
 #include <cusp/base/schema_field.hpp>
 #include <cusp/geometry/surface_file.hpp>
 #include <cusp/machine/setup_definition.hpp>
+#include <cusp/optimizer/finishing/optimize_job.hpp>
 #include <cusp/optimizer/finishing/plan_job.hpp>
 #include <cusp/post/control/control_definition.hpp>
 
@@ -55,6 +56,10 @@ constexpr Page pages[] = {
      "`cusp plan JOB.toml -o P.apt` reads these. The unit of a number is the end of its key; a key that is not listed here is "
      "an error. Examples: `examples/benchmark/table2_ga.toml` and `table2_vega.toml`.",
      [] { return finishing::planJobSection().describe(); }},
+    {"optimize-job", "Optimisation jobs",
+     "`cusp optimize JOB.toml -o DIR` reads these. The unit of a number is the end of its key; a key that is not listed here is "
+     "an error. Examples: `examples/benchmark/paper.toml` and `true.toml`.",
+     [] { return finishing::optimizeJobSection().describe(); }},
 };
 
 std::vector<std::string> pageNames() {

@@ -24,6 +24,7 @@ ExitCode run(int argc, char** argv) {
     cusp::cli::Action action;
     addControllerCommand(app, action);
     addPlanCommand(app, action);
+    addOptimizeCommand(app, action);
     addPostCommand(app, action);
     addVerifyCommand(app, action);
     addEvaluateCommand(app, action);

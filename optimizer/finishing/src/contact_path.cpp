@@ -146,10 +146,14 @@ base::Result<ContactPath> walkPasses(const std::vector<PassCurve>& passes, const
     out.cutter = cutter;
     out.options = options;
     for (const PassCurve& pass : passes) {
-        const Walk walk(pass, cutter, options);
+        PlanOptions of_pass = options;
+        const auto& factors = options.orientation.pass_safety;
+        if (pass.lane() < factors.size()) of_pass.orientation.curvature_safety *= factors[pass.lane()];
+        const Walk walk(pass, cutter, of_pass);
         for (const double t : walk.steps()) {
             out.points.push_back(walk.at(t));
             out.points.back().pass = out.passes;
+            out.points.back().lane = pass.lane();
         }
         ++out.passes;
         if (out.points.size() > most_points)

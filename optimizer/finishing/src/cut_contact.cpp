@@ -4,6 +4,7 @@
 #include <cusp/optimizer/finishing/cut_contact.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -33,21 +34,35 @@ public:
 
     [[nodiscard]] Touch nearest() const {
         if (cutter_.corner_e_mm <= 0.0) return at(0.0);
-        constexpr int looks = 16;
+        constexpr int looks = 32;
         constexpr double step = 2.0 * std::numbers::pi / looks;
-        double best = 0.0;
-        Touch touch;
-        for (int i = 0; i < looks; ++i) {
-            const Touch here = at(i * step);
-            if (here.gap_mm < touch.gap_mm) {
-                touch = here;
-                best = i * step;
-            }
+        std::array<double, looks> gaps{};
+        std::size_t deepest = 0;
+        for (std::size_t i = 0; i < looks; ++i) {
+            gaps[i] = at(static_cast<double>(i) * step).gap_mm;
+            if (gaps[i] < gaps[deepest]) deepest = i;
         }
-        return refine(best - step, best + step, std::move(touch));
+        // A cutter that is flatter than the surface is hollow cuts in on both sides of its contact, which is then a high
+        // place of the gap and not a low one: of all turning places the one nearest to the surface is the contact.
+        Touch best;
+        for (std::size_t i = 0; i < looks; ++i) {
+            const double before = gaps[(i + looks - 1) % looks];
+            const double after = gaps[(i + 1) % looks];
+            const bool low = gaps[i] <= before && gaps[i] <= after;
+            const bool high = gaps[i] >= before && gaps[i] >= after && std::isfinite(gaps[i]);
+            if (!low && (!high || gaps[i] > far_mm)) continue;
+            const double angle = static_cast<double>(i) * step;
+            const Touch found = refine(angle - step, angle + step, at(angle), low ? 1.0 : -1.0);
+            if (std::abs(found.gap_mm) < std::abs(best.gap_mm)) best = found;
+        }
+        const bool contact = std::abs(best.gap_mm) <= far_mm;
+        return contact ? best : at(static_cast<double>(deepest) * step);
     }
 
 private:
+    /// Beyond this from the surface, a turning place of the gap is no contact.
+    static constexpr double far_mm = 0.5;
+
     [[nodiscard]] Touch at(double angle) const {
         const Vector3 corner = center_ + cutter_.corner_e_mm * (std::cos(angle) * first_ + std::sin(angle) * second_);
         Touch touch{shape_.closest(corner), 0.0};
@@ -60,8 +75,8 @@ private:
         return touch;
     }
 
-    /// Golden section: the gap along the circle has one low within two looks.
-    [[nodiscard]] Touch refine(double low, double high, Touch best) const {
+    /// Golden section for the low (`sign` 1) or high (−1) of the gap between two looks.
+    [[nodiscard]] Touch refine(double low, double high, Touch best, double sign) const {
         constexpr double golden = 0.6180339887498949;
         constexpr double close_rad = 1e-7;
         double a = high - golden * (high - low);
@@ -69,7 +84,7 @@ private:
         Touch at_a = at(a);
         Touch at_b = at(b);
         while (high - low > close_rad) {
-            if (at_a.gap_mm < at_b.gap_mm) {
+            if (sign * at_a.gap_mm < sign * at_b.gap_mm) {
                 high = std::exchange(b, a);
                 at_b = at_a;
                 a = high - golden * (high - low);
@@ -82,7 +97,7 @@ private:
             }
         }
         for (const Touch& found : {at_a, at_b})
-            if (found.gap_mm < best.gap_mm) best = found;
+            if (sign * found.gap_mm < sign * best.gap_mm) best = found;
         return best;
     }
 

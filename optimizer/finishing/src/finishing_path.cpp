@@ -85,17 +85,17 @@ public:
         for (std::uint32_t k = 0; k < path_.contacts.passes; ++k) {
             const auto pass = path_.contacts.pass(k);
             if (pass.empty()) continue;
-            const CutterLocation start = shifted(pass.front().location, -links_.overrun_mm * pass.front().frame.feed);
+            const CutterLocation start = shifted(pass.front().location, -links_.run_in_mm * pass.front().frame.feed);
             enter(start);
             const auto first = static_cast<std::uint32_t>(pass.data() - path_.contacts.points.data());
-            if (links_.overrun_mm > 0.0) feedTo(start, links_.approach_feed_mm_per_s, PathMove::no_contact);
+            if (links_.run_in_mm > 0.0) feedTo(start, links_.approach_feed_mm_per_s, PathMove::no_contact);
             for (std::uint32_t i = 0; i < pass.size(); ++i)
                 feedTo(pass[i].location,
-                       i == 0 && links_.overrun_mm <= 0.0 ? links_.approach_feed_mm_per_s
-                                                          : path_.contacts.options.feed_mm_per_s,
+                       i == 0 && links_.run_in_mm <= 0.0 ? links_.approach_feed_mm_per_s
+                                                         : path_.contacts.options.feed_mm_per_s,
                        first + i);
-            if (links_.overrun_mm > 0.0)
-                feedTo(shifted(pass.back().location, links_.overrun_mm * pass.back().frame.feed),
+            if (links_.run_out_mm > 0.0)
+                feedTo(shifted(pass.back().location, links_.run_out_mm * pass.back().frame.feed),
                        path_.contacts.options.feed_mm_per_s, PathMove::no_contact);
             end_ = path_.moves.back().location;
         }

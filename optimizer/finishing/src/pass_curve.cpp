@@ -16,8 +16,9 @@ FaceParameters combine(double a, const FaceParameters& p, double b, const FacePa
 
 }  // namespace
 
-PassCurve::PassCurve(const geometry::SurfaceFace& face, std::uint32_t face_index, std::vector<FaceParameters> samples)
-    : face_(&face), face_index_(face_index), samples_(std::move(samples)) {}
+PassCurve::PassCurve(const geometry::SurfaceFace& face, std::uint32_t face_index, std::vector<FaceParameters> samples,
+                     std::uint32_t lane)
+    : face_(&face), face_index_(face_index), samples_(std::move(samples)), lane_(lane) {}
 
 /// Per step between samples: the parabola through three neighbours.
 FaceParameters PassCurve::slopeOf(std::size_t sample) const {

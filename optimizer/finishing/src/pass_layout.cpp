@@ -40,6 +40,7 @@ struct Spacing {
 
 /// Where in 0 … total each pass lies.
 std::vector<double> placesOf(double total, const PassOptions& passes) {
+    if (!passes.places.empty()) return passes.places;
     const double wanted = std::ceil(total - 1e-9) + (passes.on_edges ? 1.0 : 0.0);
     const auto count = std::max<std::int64_t>(
         passes.on_edges ? 2 : 1,
@@ -123,13 +124,16 @@ private:
             widest = std::max(widest, sumAt(alongAt(static_cast<double>(i) / (along_samples - 1))).back());
         const PassOptions& passes = spacing_.options->passes;
         const auto fitting = static_cast<std::int64_t>(std::min(std::floor(widest + 1e-9), 1.0 + most_passes));
-        auto places = checked(placesOf(
-            1.0, {.count = passes.count.value_or(std::max<std::int64_t>(1, fitting)), .on_edges = passes.on_edges}));
+        PassOptions placed;
+        placed.count = passes.count.value_or(std::max<std::int64_t>(1, fitting));
+        placed.on_edges = passes.on_edges;
+        auto places = checked(placesOf(1.0, placed));
         if (!places) return base::fail(places.error());
         std::vector<PassCurve> out;
         for (const double place : *places)
             out.emplace_back(face_, index_,
-                             std::vector{uv(acrossAt(place), along_.front()), uv(acrossAt(place), along_.back())});
+                             std::vector{uv(acrossAt(place), along_.front()), uv(acrossAt(place), along_.back())},
+                             static_cast<std::uint32_t>(out.size()));
         return out;
     }
 
@@ -148,7 +152,7 @@ private:
             for (std::size_t i = 0; i < along_samples; ++i)
                 samples.push_back(uv(inverse(sums[i], place * sums[i].back(), across_.front(), across_.back()),
                                      alongAt(static_cast<double>(i) / (along_samples - 1))));
-            out.emplace_back(face_, index_, std::move(samples));
+            out.emplace_back(face_, index_, std::move(samples), static_cast<std::uint32_t>(out.size()));
         }
         return out;
     }
@@ -176,10 +180,10 @@ public:
         if (!heights) return base::fail(heights.error());
         std::vector<PassCurve> out;
         Vector3 direction = Vector3::Zero();
-        for (const double height : *heights) {
+        for (std::uint32_t lane = 0; lane < heights->size(); ++lane) {
             const auto first = out.size();
-            for (auto& samples : sections_.at(height, along_samples, least_mm)) {
-                PassCurve curve(face_, index_, std::move(samples));
+            for (auto& samples : sections_.at((*heights)[lane], along_samples, least_mm)) {
+                PassCurve curve(face_, index_, std::move(samples), lane);
                 const Vector3 chord = curve.position(1.0) - curve.position(0.0);
                 if (direction.isZero()) direction = chord;
                 if (chord.dot(direction) < 0.0) curve.reverse();

@@ -31,7 +31,7 @@ PassCurve piece(const PassCurve& pass, double from, double to) {
     std::vector<FaceParameters> out;
     for (int i = 0; i < samples; ++i)
         out.push_back(pass.parameters(std::lerp(from, to, static_cast<double>(i) / (samples - 1))));
-    return {pass.face(), pass.faceIndex(), std::move(out)};
+    return {pass.face(), pass.faceIndex(), std::move(out), pass.lane()};
 }
 
 }  // namespace

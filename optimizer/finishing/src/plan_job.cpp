@@ -91,6 +91,9 @@ const Section<PassOptions>& passSection() {
                    positive())
             .field("count", &P::count, "That many passes for each face, whatever the step-over.",
                    FieldRules{.min = 1.0})
+            .field(
+                "places", &P::places,
+                "Where each pass lies, 0 to 1 of the whole across the face, ascending; passes along u or v, arc or scallop.")
             .field("on_edges", &P::on_edges,
                    "First and last pass on the edges of the face, not half a distance inside (arc, scallop).")
             .field("from_last", &P::from_last, "Begins at the other side.")
@@ -109,6 +112,7 @@ const Section<OrientationOptions>& orientationSection() {
                 "The lead follows the surface: the smallest with which the cutter is no flatter than the surface is hollow.")
             .field("curvature_safety", &O::curvature_safety,
                    "Adaptive lead takes the surface for so many times as hollow.", positive())
+            .field("pass_safety", &O::pass_safety, "For each pass a factor on curvature_safety.")
             .field("lead_max_deg", &O::lead_max_rad, "The most an adaptive lead may be.", positive_angle)
             .field("lead_change_deg_per_mm", &O::lead_change_rad_per_mm,
                    "The most an adaptive lead changes along a pass.", positive())
@@ -137,7 +141,10 @@ const Section<LinkOptions>& linkSection() {
     using L = LinkOptions;
     static const auto section =
         Section<L>("How the tool comes to a pass, leaves it and goes to the next.")
-            .field("overrun_mm", &L::overrun_mm, "Straight on beyond both ends of a pass, at the feed.", not_negative)
+            .field("run_in_mm", &L::run_in_mm, "Straight on before a pass, at the feed.", not_negative)
+            .field("run_out_mm", &L::run_out_mm,
+                   "Straight on beyond the end of a pass: beside the contact a wide cutter lags behind it.",
+                   not_negative)
             .field("lift_mm", &L::lift_mm, "Off the surface along the tool axis, before and after a pass.", positive())
             .field("clearance_mm", &L::clearance_mm,
                    "Above the highest place of the part: for the first approach, and links that cannot stay low.",

@@ -47,7 +47,13 @@ base::Diagnostics PlanOptions::check() const {
     demand(steps.most_mm > 0.0, "steps.step_max_mm", steps.most_mm, "above 0");
     demand(steps.most_turn_rad > 0.0, "steps.turn_max_deg", base::degFromRad(steps.most_turn_rad), "above 0");
     demand(links.lift_mm > 0.0, "links.lift_mm", links.lift_mm, "above 0");
-    demand(links.overrun_mm >= 0.0, "links.overrun_mm", links.overrun_mm, "0 or more");
+    demand(links.run_in_mm >= 0.0, "links.run_in_mm", links.run_in_mm, "0 or more");
+    demand(links.run_out_mm >= 0.0, "links.run_out_mm", links.run_out_mm, "0 or more");
+    for (std::size_t i = 0; i < passes.places.size(); ++i)
+        demand(passes.places[i] >= (i == 0 ? 0.0 : passes.places[i - 1]) && passes.places[i] <= 1.0, "passes.places",
+               passes.places[i], "in 0 to 1, and no less than the one before");
+    for (const double factor : orientation.pass_safety)
+        demand(factor > 0.0, "orientation.pass_safety", factor, "above 0");
     demand(links.clearance_mm > 0.0, "links.clearance_mm", links.clearance_mm, "above 0");
     demand(feed_mm_per_s > 0.0, "feed.feed_mm_per_min", base::mmPerMinFromMmPerS(feed_mm_per_s), "above 0");
     demand(links.approach_feed_mm_per_s > 0.0, "feed.approach_feed_mm_per_min",

@@ -24,6 +24,7 @@ struct ContactPoint {
     FaceParameters uv{};
     std::uint32_t face = 0;
     std::uint32_t pass = 0;
+    std::uint32_t lane = 0;  ///< PassCurve::lane
 };
 
 struct ContactPath {

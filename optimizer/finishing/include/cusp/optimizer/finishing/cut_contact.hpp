@@ -34,8 +34,9 @@ struct ContactOptions {
     double turn_rad = 1.0;
 };
 
-/// The contacts of a path with a nominal shape: at each location the point of the corner circle that is deepest in, or nearest
-/// to, the surface. Of passes run from end to end by feed moves, links by rapid or off the surface end a pass.
+/// The contacts of a path with a nominal shape. At each location the corner circle's distance to the surface is followed
+/// around: of the places where it turns, the one nearest to the surface is the contact (of a cutter that cuts in on both
+/// sides, a high one between two low ones). Passes end at links by rapid or off the surface, and at turns.
 [[nodiscard]] std::vector<CutContact> findContacts(const simulation::CutterPath& path,
                                                    const geometry::NominalShape& shape,
                                                    const ContactOptions& options = {});

@@ -24,8 +24,10 @@ struct PassPoint {
 /// A curve in the parameters of a face, continuous with its tangent, over t in [0, 1]. It lies on the surface everywhere.
 class PassCurve {
 public:
-    /// At least two samples, taken at equal steps of t; between them cubic Hermite pieces. The face must outlive this.
-    PassCurve(const geometry::SurfaceFace& face, std::uint32_t face_index, std::vector<FaceParameters> samples);
+    /// At least two samples, taken at equal steps of t; between them cubic Hermite pieces. The face must outlive this. `lane`
+    /// counts the places across a face: the pieces of a pass that a hole or a bay cuts have the same one.
+    PassCurve(const geometry::SurfaceFace& face, std::uint32_t face_index, std::vector<FaceParameters> samples,
+              std::uint32_t lane);
 
     [[nodiscard]] FaceParameters parameters(double t) const;
     [[nodiscard]] Vector3 position(double t) const;
@@ -36,6 +38,7 @@ public:
     void reverse();
 
     [[nodiscard]] std::uint32_t faceIndex() const { return face_index_; }
+    [[nodiscard]] std::uint32_t lane() const { return lane_; }
     [[nodiscard]] const geometry::SurfaceFace& face() const { return *face_; }
     [[nodiscard]] const std::vector<FaceParameters>& samples() const { return samples_; }
 
@@ -50,6 +53,7 @@ private:
     const geometry::SurfaceFace* face_;
     std::uint32_t face_index_;
     std::vector<FaceParameters> samples_;
+    std::uint32_t lane_;
 };
 
 }  // namespace cusp::finishing

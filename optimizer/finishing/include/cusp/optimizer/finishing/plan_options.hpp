@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace cusp::finishing {
 
@@ -33,6 +34,8 @@ struct PassOptions {
     double step_over_mm = 1.0;
     double scallop_mm = 0.01;           ///< Placement::Scallop; `step_over_mm` is then the most two passes may be apart
     std::optional<std::int64_t> count;  ///< that many passes for each face, whatever step-over or scallop ask for
+    /// Where each pass lies, 0 … 1 of the whole across a face, ascending; whatever else asks for passes (Arc, Scallop).
+    std::vector<double> places;
     /// The first and the last pass lie on the edge of the face instead of half a distance inside (Arc, Scallop).
     bool on_edges = false;
     bool from_last = false;  ///< begins at the other side
@@ -47,6 +50,8 @@ struct OrientationOptions {
     /// hollow, times the safety, never below `lead_rad` and never above `lead_max_rad`; smooth along the pass.
     bool adaptive = false;
     double curvature_safety = 1.1;  ///< m: the surface counts as m times as hollow; ≥ 1 never cuts into it
+    /// For each pass across a face a factor on the safety; passes beyond the list have 1.
+    std::vector<double> pass_safety;
     double lead_max_rad = 0.5;
     double lead_change_rad_per_mm = 0.02;  ///< along the pass; the planner lowers it where the axes are slower
     double smoothing_mm = 4.0;             ///< over this length the lead is averaged
@@ -74,7 +79,8 @@ struct StepOptions {
 
 /// How the tool comes to a pass, leaves it, and goes to the next.
 struct LinkOptions {
-    double overrun_mm = 0.0;     ///< straight on beyond both ends of a pass, at the feed
+    double run_in_mm = 0.0;      ///< straight on before a pass, at the feed
+    double run_out_mm = 0.0;     ///< … and beyond its end: beside the contact a wide cutter lags behind it
     double lift_mm = 1.0;        ///< off the surface along the tool axis, before and after a pass
     double clearance_mm = 20.0;  ///< above the highest place of the part, for the first approach and for long links
     std::array<double, 3> up{0.0, 0.0, 1.0};  ///< of any length but 0
