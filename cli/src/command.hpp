@@ -26,6 +26,7 @@ void addPlanCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);
+void addTiltCommand(CLI::App& app, Action& action);
 void addTextureCommand(CLI::App& app, Action& action);
 void addSendCommand(CLI::App& app, Action& action);
 void addVerifyCommand(CLI::App& app, Action& action);

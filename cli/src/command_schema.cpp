@@ -10,6 +10,7 @@
 #include <cusp/machine/setup_definition.hpp>
 #include <cusp/optimizer/finishing/optimize_job.hpp>
 #include <cusp/optimizer/finishing/plan_job.hpp>
+#include <cusp/optimizer/tilt/tilt_job.hpp>
 #include <cusp/post/control/control_definition.hpp>
 
 #include <memory>
@@ -60,6 +61,10 @@ constexpr Page pages[] = {
      "`cusp optimize JOB.toml -o DIR` reads these. The unit of a number is the end of its key; a key that is not listed here is "
      "an error. Examples: `examples/benchmark/paper.toml` and `true.toml`.",
      [] { return finishing::optimizeJobSection().describe(); }},
+    {"tilt-job", "Tilting jobs",
+     "`cusp tilt JOB.toml -o DIR` reads these. The unit of a number is the end of its key; a key that is not listed here is an "
+     "error. Examples: `examples/tilt/cavity.toml`, `dome.toml` and `mould.toml`.",
+     [] { return tilt::tiltJobSection().describe(); }},
 };
 
 std::vector<std::string> pageNames() {

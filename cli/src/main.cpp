@@ -25,6 +25,7 @@ ExitCode run(int argc, char** argv) {
     addControllerCommand(app, action);
     addPlanCommand(app, action);
     addOptimizeCommand(app, action);
+    addTiltCommand(app, action);
     addPostCommand(app, action);
     addVerifyCommand(app, action);
     addEvaluateCommand(app, action);

@@ -242,3 +242,20 @@ export function simulationSample({ collisions = 1 } = {}) {
         ] }],
     };
 }
+
+/** Three runs over twenty generations as `cusp tilt` writes them, climbing to 1 by formula. */
+export function tiltSample({ runs = 3, generations = 20, free = true } = {}) {
+    const climb = (pace, run) => Array.from({ length: generations + 1 }, (_, g) => Math.min(1, 1 - Math.exp(-(g + 1 + run) / pace)));
+    const contact = (speed) => ({ speed_min_m_per_min: speed / 4, speed_mean_m_per_min: speed, speed_max_m_per_min: 2 * speed, force_proxy_mean: 1.4, force_proxy_max: 2.1, places: 900 });
+    const proof = (volume) => ({ collision_volume_mm3: volume, depth_mm: volume > 0 ? 1.25 : 0, collisions: volume > 0 ? 40 : 0, deepest_at_mm: null });
+    return {
+        schema: 1, command: "tilt", version: "0.1.0", job: "cavity.toml", name: "CAVITY", machine: "A/C trunnion", cl_file: "out/tilted.apt",
+        cutter_locations: 941, path_length_mm: 1569.2, collision_free: free, tilt_points_mm: [[-1.25, 0.5, 33.75]], generations_to_collision_free: 1,
+        fitness: { range_excess: 0, collision_volume_mm3: 0, harmony_s: 99.93 }, rotary_travel_deg: [1850.2, 412.6], rewinds: 0, machining_time_s: 71.4,
+        shortest_stick_out_mm: 41.5, stick_out_mm: 46, center_error_max_mm: 0.0002, proof_resolution_mm: 0.2,
+        start: { proof: proof(85.2), contact: contact(12.5) }, tilted: { proof: proof(free ? 0 : 0.4), contact: contact(61.3) }, seed: 1,
+        runs: Array.from({ length: runs }, (_, i) => ({ seed: i + 1, tilt_points_mm: [[i - 1.25, 0.5, 33.75]], generations_to_collision_free: i, evaluations: 2550, fitness: { range_excess: 0, collision_volume_mm3: 0, harmony_s: 99.93 + i } })),
+        curves: Array.from({ length: runs }, (_, i) => ({ seed: i + 1, best: climb(0.4, i), mean: climb(3, i), worst: climb(9, i) })),
+        seconds: 12.5,
+    };
+}

@@ -49,14 +49,6 @@ void checkSearch(const TiltSearch& search, const TomlNode& node, Diagnostics& re
             "tilt.search",
             fmt::format("survivors is {}; at most offspring, {}, can survive", search.survivors, search.offspring),
             at(node, "survivors"));
-    if (search.fine_mm > search.coarse_mm)
-        report.error("tilt.search",
-                     fmt::format("fine_mm is {}; it must not be above coarse_mm, {}", search.fine_mm, search.coarse_mm),
-                     at(node, "fine_mm"));
-    if (search.proof_mm > search.fine_mm)
-        report.error("tilt.search",
-                     fmt::format("proof_mm is {}; it must not be above fine_mm, {}", search.proof_mm, search.fine_mm),
-                     at(node, "proof_mm"));
 }
 
 void checkJob(const TiltJob& job, const TomlNode& root, Diagnostics& report) {
@@ -96,9 +88,12 @@ Section<TiltSearch> searchSection() {
         .field("generations", &Search::generations, "At most, for each number of tilt points.", at_least_one)
         .field("most_points", &Search::most_points,
                "Tilt points; more than one only where fewer find no way free of collision.", {.min = 1.0, .max = 20.0})
-        .field("coarse_mm", &Search::coarse_mm, "Resolution of the first look at a candidate.", above_zero)
-        .field("fine_mm", &Search::fine_mm, "Resolution of the look that decides whether it is free.", above_zero)
-        .field("proof_mm", &Search::proof_mm, "Resolution of the proof of the winner.", above_zero)
+        .field(
+            "coarse_mm", &Search::coarse_mm,
+            "Cell of the field of distances that candidates are looked up in; 2 and 8 times this apart are the places of "
+            "the first looks.",
+            above_zero)
+        .field("proof_mm", &Search::proof_mm, "Resolution of the simulation that proves the winner.", above_zero)
         .check(checkSearch);
     return section;
 }

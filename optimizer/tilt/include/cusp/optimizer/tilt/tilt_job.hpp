@@ -46,9 +46,9 @@ struct TiltSearch {
     std::int64_t survivors = 25;
     std::int64_t generations = 50;
     std::int64_t most_points = 3;  ///< tilt points; more than one only where fewer find no way free of collision
-    double coarse_mm = 1.0;        ///< resolution of the first look at a candidate
-    double fine_mm = 0.4;          ///< … of the look that decides whether it is free
-    double proof_mm = 0.2;         ///< … of the proof of the winner
+    double coarse_mm =
+        1.0;  ///< cell of the field of distances candidates are looked up in, and spacing of the first looks
+    double proof_mm = 0.2;  ///< resolution of the simulation that proves the winner
 };
 
 struct TiltJob {
