@@ -132,7 +132,11 @@ TiltFitness TiltCase::judge(const TiltPlan& plan) const {
     fitness = {motion.range_excess, infinite, motion.harmony_s};
     if (fitness.range_excess > 0.0) return fitness;
     fitness.collision_volume_mm3 = probe_->overlap(poses, Look::Exact);
-    if (fitness.collision_volume_mm3 > 0.0 || coarse_path_.locations.size() == path_.locations.size()) return fitness;
+    // Of a long path the second look is all a search can afford; what it leaves open, the proof of the winner answers.
+    constexpr std::size_t long_path = 20'000;
+    const std::size_t locations = path_.locations.size();
+    if (fitness.collision_volume_mm3 > 0.0 || coarse_path_.locations.size() == locations || locations > long_path)
+        return fitness;
     poses = tilted(path_, plan);
     fitness.collision_volume_mm3 = probe_->overlap(poses, Look::Exact);
     if (fitness.collision_volume_mm3 > 0.0) return fitness;

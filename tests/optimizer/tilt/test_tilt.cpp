@@ -114,7 +114,9 @@ TEST(TiltedPath, OutsideTheAreaItStaysAsItWas) {
     const auto problem = caseOf(smallCavity(), machine);
     const auto poses = tilted(problem->path(), {{Vector3(0.0, 0.0, 10.0)}, area});
     for (std::size_t i = 0; i < poses.size(); ++i)
-        if (problem->path().locations[i].location.tip_mm.x() < -2.0) EXPECT_EQ(poses[i].axis, Vector3::UnitZ());
+        if (problem->path().locations[i].location.tip_mm.x() < -2.0) {
+            EXPECT_EQ(poses[i].axis, Vector3::UnitZ());
+        }
 }
 
 TEST(TiltedPath, SeveralPointsAreBlendedSmoothly) {

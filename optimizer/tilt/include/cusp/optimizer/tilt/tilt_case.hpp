@@ -66,8 +66,8 @@ public:
     [[nodiscard]] const MachinePlace& place() const { return place_; }
     [[nodiscard]] const geometry::NominalShape& shape() const { return *shape_; }
 
-    /// A look at few locations, then, where that finds nothing, at more, then at all of them: the first that finds something
-    /// counts. Where the machine cannot
+    /// A look at few locations, then, where that finds nothing, at more, then at all of them (unless there are more
+    /// than 20 000): the first that finds something counts. Where the machine cannot
     /// follow, collisions are not looked for, and count as infinite. Collisions are those with the finished part; their volume
     /// is the mean along the path of what shank and holder overlap at each place.
     [[nodiscard]] TiltFitness judge(const TiltPlan& plan) const;
