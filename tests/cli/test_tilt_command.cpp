@@ -35,7 +35,7 @@ step_over_mm = 4.0
 radius_mm = 11.0
 [search]
 cube_mm = 60.0
-generations = 8
+generations = 6
 proof_mm = 0.5
 )";
 

@@ -65,9 +65,10 @@ TEST(RenderPage, ADocumentCannotEndItsElement) {
 TEST(RenderPage, NamesThePagesThereAre) {
     const auto html = renderPage("inspektion", "{}");
     ASSERT_FALSE(html.has_value());
-    EXPECT_EQ(base::toText(html.error()),
-              "error: there is no page 'inspektion'; there are: capability, inspection, monitor, texture, tilt "
-              "[pages.unknown-page]\n");
+    EXPECT_EQ(
+        base::toText(html.error()),
+        "error: there is no page 'inspektion'; there are: capability, inspection, monitor, simulation, texture, tilt "
+        "[pages.unknown-page]\n");
     EXPECT_EQ(html.error().front().code, "pages.unknown-page");
 }
 
