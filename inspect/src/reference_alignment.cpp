@@ -123,6 +123,11 @@ base::Result<std::vector<ReferencePoint>> readReferences(std::string_view text, 
             if (!value)
                 problems.error("reference.number", fmt::format("{}: {} is no number", columns.at(i), quoted(fields[i])),
                                where);
+            constexpr double largest_mm = 1e9;  // squares of more than this lose every digit of the others
+            if (value && !(std::abs(*value) <= largest_mm)) {
+                sound = false;
+                problems.error("reference.number", fmt::format("{}: beyond 1e9", columns.at(i)), where);
+            }
             v.at(i) = value.value_or(0.0);
         }
         const Vector3 direction(v[6], v[7], v[8]);
