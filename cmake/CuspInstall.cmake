@@ -17,7 +17,8 @@ set(packages
   "TBB::tbb=TBB"
   "Modbus::Modbus=Modbus"
   "SQLite::SQLite3=SQLite3"
-  "Clp::Clp=Clp")
+  "Clp::Clp=Clp"
+  "Polyclipping::Polyclipping=Polyclipping")
 
 set(CUSP_CONFIG_ROOMS "")
 get_property(rooms GLOBAL PROPERTY CUSP_ROOMS)
@@ -45,5 +46,6 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/cusp-config-version.cmak
 install(FILES "${PROJECT_BINARY_DIR}/cusp-config.cmake" "${PROJECT_BINARY_DIR}/cusp-config-version.cmake"
   "${CMAKE_CURRENT_LIST_DIR}/FindModbus.cmake"
   "${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/FindPolyclipping.cmake"
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cusp)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/cusp)

@@ -23,6 +23,7 @@ void addInspectCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);
 void addOptimizeCommand(CLI::App& app, Action& action);
 void addPlanCommand(CLI::App& app, Action& action);
+void addPocketCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);

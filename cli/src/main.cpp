@@ -26,6 +26,7 @@ ExitCode run(int argc, char** argv) {
     addPlanCommand(app, action);
     addOptimizeCommand(app, action);
     addTiltCommand(app, action);
+    addPocketCommand(app, action);
     addPostCommand(app, action);
     addVerifyCommand(app, action);
     addEvaluateCommand(app, action);
