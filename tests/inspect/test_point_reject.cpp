@@ -45,7 +45,7 @@ TEST(PointReject, EveryFileGivesItsExactProblems) {
 
 TEST(PointReject, OptionsThatDoNotFit) {
     EXPECT_EQ(readText("1,2,3\n", {.columns = "x,y,w"}).errors,
-              "error: --columns: 'w' is none of x, y, z, i, j, k, section, id, - [points.columns]\n");
+              "error: --columns: 'w' is none of x, y, z, i, j, k, section, weight, id, - [points.columns]\n");
     EXPECT_EQ(readText("1,2,3\n", {.columns = "x,y"}).errors,
               "1: error: the header has no column z; its columns are x, y; say with --columns which is which "
               "[points.header]\n");

@@ -23,7 +23,13 @@
 namespace cusp::geometry::cad {
 namespace {
 
-std::vector<double> flatKnots(const TColStd_Array1OfReal& flat) { return {flat.begin(), flat.end()}; }
+// By index: the iterators of this array are made of one that C++17 deprecates.
+std::vector<double> flatKnots(const TColStd_Array1OfReal& flat) {
+    std::vector<double> knots;
+    knots.reserve(static_cast<std::size_t>(flat.Length()));
+    for (int i = flat.Lower(); i <= flat.Upper(); ++i) knots.push_back(flat(i));
+    return knots;
+}
 
 BSplineForm surfaceForm(const Handle(Geom_BSplineSurface) & surface) {
     surface->SetUNotPeriodic();
