@@ -12,6 +12,7 @@
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/geometry/cad/nominal_file.hpp>
+#include <cusp/geometry/turned_shape.hpp>
 #include <cusp/inspect/reference_alignment.hpp>
 #include <cusp/inspect/scan/scan_registration.hpp>
 
@@ -94,19 +95,21 @@ ExitCode exitCodeFor(const inspect::InspectionReport& report) {
 ExitCode runInspect(const InspectFlags& flags) {
     auto options = inspectionOptions(flags);
     if (!options) return failWith(options.error());
-    const auto nominal = geometry::loadNominal(flags.nominal);
+    base::Diagnostics remarks;
+    auto nominal = geometry::loadNominal(flags.nominal, remarks);
     if (!nominal) return failWith(nominal.error());
+    if (flags.flip_nominal) nominal = std::make_unique<geometry::TurnedShape>(*std::move(nominal));
     auto points = readPoints(flags);
     if (!points) return failWith(points.error());
     const auto start = startOf(flags, *points, **nominal);
     if (!start) return failWith(start.error());
     options->start = *start;
     if (interrupted()) return ExitCode::Interrupted;
-    base::Diagnostics remarks;
     auto report = inspect::inspectPoints(*std::move(points), **nominal, *options, remarks);
     tell(remarks);
     if (!report) return failWith(report.error());
     report->nominal_file = flags.nominal;
+    report->nominal_flipped = flags.flip_nominal;
     if (interrupted()) return ExitCode::Interrupted;
     if (const auto done = writeResults(flags, *report); !done) return failWith(done.error());
     if (flags.json)
@@ -195,6 +198,8 @@ void addInspectCommand(CLI::App& app, Action& action) {
     const auto flags = std::make_shared<InspectFlags>();
     addPointFlags(*inspect, *flags);
     inspect->add_option("--nominal", flags->nominal, "Nominal surface.")->required();
+    inspect->add_flag("--flip-nominal", flags->flip_nominal,
+                      "The outward normal of the nominal is the opposite of what its file says.");
     addFitFlags(*inspect, *flags);
     addDecisionFlags(*inspect, *flags);
     CLI::Option* output = inspect->add_option(

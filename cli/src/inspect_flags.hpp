@@ -15,6 +15,7 @@ namespace cusp::cli {
 struct InspectFlags {
     std::string points_file;
     std::string nominal;
+    bool flip_nominal = false;
     std::string output;
     std::string format;
     std::string columns;

@@ -6,10 +6,14 @@
 #include "evaluation_field.hpp"
 #include "plausibility.hpp"
 
+#include <cusp/inspect/pose_search.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <functional>
+#include <limits>
 #include <numbers>
 
 namespace cusp::inspect {
@@ -77,6 +81,7 @@ public:
     base::Result<InspectionReport> run(MeasuredPoints points) {
         if (auto problem = checkWeights(points)) return base::fail(*std::move(problem));
         if (auto problem = checkUnit(points, nominal_)) return base::fail(*std::move(problem));
+        if (auto problem = checkCount(points)) return base::fail(*std::move(problem));
         const auto probe = decideProbe(points, nominal_, options_, report_);
         if (!probe) return base::fail(probe.error());
         if (auto problem = checkPlane(points, nominal_, options_)) return base::fail(*std::move(problem));
@@ -118,6 +123,20 @@ private:
         if (!options_.use_weights || !points.weights.empty()) return std::nullopt;
         base::Diagnostics out;
         out.error("inspect.weights", "the points have no weights; --weights needs a column \"weight\" in a table",
+                  where);
+        return out;
+    }
+
+    /// Before anything is fitted to find out what the points are.
+    std::optional<base::Diagnostics> checkCount(const MeasuredPoints& points) const {
+        const auto free = static_cast<std::size_t>(std::count(options_.locked.begin(), options_.locked.end(), false));
+        if (options_.fit == FitKind::None || points.size() >= free) return std::nullopt;
+        base::Location where;
+        where.file = points.source;
+        base::Diagnostics out;
+        out.error("align.too-few-points",
+                  fmt::format("{} point{} cannot determine {} free freedoms", points.size(),
+                              points.size() == 1 ? "" : "s", free),
                   where);
         return out;
     }
@@ -199,12 +218,37 @@ private:
                                         judged.statistics.rms_mm, judged.beyond_edge, judged.deviations.size(),
                                         why.cause));
         }
+        if (const double elsewhere_mm = betterElsewhere(); elsewhere_mm < out_.alignment.rms_mm)
+            return withhold(
+                "inspect.poor-fit",
+                fmt::format("the points fit better in another pose (rms {:.3g} mm instead of {:.3g} mm): the start "
+                            "is too far off; --start scan finds one",
+                            elsewhere_mm, out_.alignment.rms_mm));
         if (judged.beyond_edge > 0)
             warn("inspect.beyond-edge",
                  fmt::format("{} of {} points lie more than {} mm beyond an edge of the nominal and do "
                              "not count",
                              judged.beyond_edge, judged.deviations.size(), options_.edge_tolerance_mm));
         doubtOutliers(judged);
+    }
+
+    /// The rms of a pose found from no start, where the fit came from so far that it may have ended in a wrong one.
+    double betterElsewhere() const {
+        constexpr double none = std::numeric_limits<double>::infinity();
+        const bool all_free = std::none_of(options_.locked.begin(), options_.locked.end(), std::identity());
+        if (options_.fit == FitKind::None || !all_free) return none;
+        const double size_mm = nominal_.bounds().diagonal().norm();
+        const RigidTransform moved = out_.alignment.nominal_from_measured * options_.start.inverse();
+        const Vector3 pivot = out_.alignment.pivot_mm;
+        constexpr double far_rad = 0.35;  // from there on, fits from a given start may end elsewhere
+        const bool far =
+            Eigen::AngleAxisd(moved.linear()).angle() > far_rad || (moved * pivot - pivot).norm() > size_mm;
+        if (!far && out_.alignment.termination != Termination::Stalled) return none;
+        PoseSearchOptions search;
+        search.offset_mm = out_.probe_radius_mm;
+        const double found_mm = searchPose(out_.points.positions, nominal_, search).rms_mm;
+        constexpr double clearly = 0.5;
+        return found_mm < clearly * out_.alignment.rms_mm ? found_mm : none;
     }
 
     /// By the spread of the middle half where outliers were to be left aside, by all points otherwise.

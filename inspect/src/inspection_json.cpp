@@ -142,6 +142,7 @@ base::Json toJson(const InspectionReport& report) {
     Json out = base::jsonReport("inspect", 1);
     out["points_file"] = report.points_file;
     out["nominal_file"] = report.nominal_file;
+    out["nominal_flipped"] = report.nominal_flipped;
     out["points"] = report.points.size();
     Json measured;
     measured["format"] = report.points.format;

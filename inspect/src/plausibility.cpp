@@ -87,6 +87,23 @@ double outlierShare(const std::vector<Vector3>& points, const geometry::NominalS
     return static_cast<double>(sizes.end() - first) / static_cast<double>(sizes.size());
 }
 
+/// The error `inspect.side` when the points fit as centres of a probe inside the material, and far worse otherwise.
+std::optional<base::Diagnostics> checkSide(const MeasuredPoints& points, const geometry::NominalShape& nominal,
+                                           double as_inner_centres_mm, double otherwise_mm) {
+    constexpr double far_better = 0.5;
+    constexpr double rounding_mm = 1e-6;
+    if (!(as_inner_centres_mm <= poorFitLimit(nominal))) return std::nullopt;
+    if (!(as_inner_centres_mm + rounding_mm < far_better * otherwise_mm)) return std::nullopt;
+    base::Diagnostics out;
+    out.error(
+        "inspect.side",
+        fmt::format("the points fit as centres of a probe on the inner side of the nominal (rms {:.3g} mm, otherwise "
+                    "{:.3g} mm): its outward normal points into the material; turn it by --flip-nominal",
+                    as_inner_centres_mm, otherwise_mm),
+        fileOf(points));
+    return out;
+}
+
 struct Ratio {
     double factor;
     std::string_view text;
@@ -111,6 +128,9 @@ std::optional<base::Diagnostics> checkUnit(const MeasuredPoints& points, const g
     constexpr double too_small = 0.1;
     const double ratio = measured_mm / std::max(nominal_mm, 1e-300);
     if (ratio >= too_small && ratio <= too_large) return std::nullopt;
+    // A handful may lie close together.
+    constexpr std::size_t handful = 6;
+    if (ratio < too_small && points.size() < handful) return std::nullopt;
     const Ratio* meant = nullptr;
     for (const Ratio& candidate : unit_ratios)
         if (ratio * candidate.factor >= 0.3 && ratio * candidate.factor <= 1.3 && meant == nullptr) meant = &candidate;
@@ -150,6 +170,9 @@ base::Result<ProbeDecision> decideProbe(const MeasuredPoints& points, const geom
     const bool centres_fit_better = as_centres_mm < as_surface_mm;
     const double better_mm = std::min(as_centres_mm, as_surface_mm);
     const double worse_mm = std::max(as_centres_mm, as_surface_mm);
+    if (points.kind != PointKind::Surface)
+        if (auto problem = checkSide(points, nominal, rmsWith(sample, nominal, options, -*radius), better_mm))
+            return base::fail(*std::move(problem));
     if (points.kind) {
         out.kind = *points.kind;
         out.source = "stated";

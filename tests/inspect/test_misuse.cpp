@@ -3,6 +3,7 @@
 // What goes wrong at a measuring machine: every case is diagnosed, none ends in a confident wrong answer.
 #include "made_measurement.hpp"
 
+#include <cusp/geometry/turned_shape.hpp>
 #include <cusp/inspect/inspection.hpp>
 #include <cusp/inspect/pose_search.hpp>
 
@@ -94,7 +95,7 @@ TEST_F(Misuse, WrongNominal) {
 TEST_F(Misuse, TooFewPoints) {
     const std::vector<Vector3> five(points.begin(), points.begin() + 5);
     EXPECT_EQ(inspected(five, patch).errors,
-              "error: 5 points on the nominal cannot determine 6 free freedoms [align.too-few-points]\n");
+              "error: 5 points cannot determine 6 free freedoms [align.too-few-points]\n");
     const std::vector<Vector3> ten(points.begin(), points.begin() + 10);
     const Outcome out = inspected(ten, patch);
     EXPECT_EQ(out.verdict(), Verdict::Undecided);
@@ -134,6 +135,59 @@ TEST_F(Misuse, FortyPercentOutliers) {
     EXPECT_GE(found.report->best_fit.outliers.size(), 225U);
     EXPECT_LE(found.report->best_fit.outliers.size(), 245U);
     EXPECT_EQ(found.verdict(), Verdict::Reject);
+}
+
+/// Half a kilometre off, the fit ends somewhere; what it found there is no verdict.
+TEST_F(Misuse, FarOffTheOrigin) {
+    const auto moved = transformed([](const Vector3& p) { return Vector3(p + Vector3(5e5, -3e5, 1e5)); });
+    const Outcome out = inspected(moved, patch);
+    EXPECT_TRUE(out.verdict() == Verdict::Undecided || out.verdict() == Verdict::Accept || !out.report);
+    if (out.verdict() != Verdict::Accept) {
+        EXPECT_TRUE(contains(out.errors + out.remarks, "--start scan finds one")) << out.errors << out.remarks;
+    }
+    InspectionOptions options;
+    options.start = searchPose(moved, patch, {}).nominal_from_measured;
+    const Outcome found = inspected(moved, patch, options);
+    ASSERT_EQ(found.verdict(), Verdict::Accept) << found.errors << found.remarks;
+    EXPECT_NEAR(found.report->best_fit.statistics.rms_mm, 0.001, 0.0001);
+}
+
+/// The normal of the nominal points into the material: centres then lie on its inner side, and fit nowhere else.
+TEST_F(Misuse, NominalInsideOut) {
+    class Borrowed : public geometry::NominalShape {
+    public:
+        explicit Borrowed(const geometry::NominalShape& shape) : shape_(shape) {}
+        geometry::Footpoint closest(const Vector3& query) const override { return shape_.closest(query); }
+        void closest(std::span<const Vector3> queries, std::span<geometry::Footpoint> feet, bool warm) const override {
+            shape_.closest(queries, feet, warm);
+        }
+        Eigen::AlignedBox3d bounds() const override { return shape_.bounds(); }
+
+    private:
+        const geometry::NominalShape& shape_;
+    };
+    const geometry::TurnedShape turned(std::make_unique<Borrowed>(patch));
+    base::Random random(78);
+    const Places places = randomPlaces(random, patch, 600);
+    std::vector<Vector3> centres;
+    for (std::size_t i = 0; i < 600; ++i)
+        centres.emplace_back(places.foot[i] + (2.0 + random.normal(0.0, 0.001)) * places.normal[i]);
+    InspectionOptions options;
+    options.probe_radius_mm = 2.0;
+    for (const auto& kind : {std::optional<PointKind>{}, std::optional(PointKind::Centre)}) {
+        MeasuredPoints measured;
+        measured.kind = kind;
+        EXPECT_EQ(inspected(centres, patch, options, measured).verdict(), Verdict::Accept);
+        const Outcome out = inspected(centres, turned, options, measured);
+        EXPECT_TRUE(contains(out.errors, "its outward normal points into the material; turn it by --flip-nominal "
+                                         "[inspect.side]"))
+            << out.errors << out.remarks;
+    }
+    const geometry::TurnedShape right(std::make_unique<geometry::TurnedShape>(std::make_unique<Borrowed>(patch)));
+    const Outcome again = inspected(centres, right, options);
+    ASSERT_TRUE(again.report.has_value());
+    EXPECT_EQ(again.report->best_fit.statistics.rms_mm,
+              inspected(centres, patch, options).report->best_fit.statistics.rms_mm);
 }
 
 TEST_F(Misuse, StartTooFarOff) {

@@ -71,6 +71,23 @@ TEST(Pcd, Compressed) {
               "error: the file ends in its packed data [points.truncated]\n");
 }
 
+TEST(PointFiles, PackedOrForeignOnesSayWhatToDo) {
+    EXPECT_EQ(readText(std::string("\x1f\x8b\x08\x00\x00\x00", 6)).errors,
+              "error: the file is compressed (gzip); unpack it first [points.format]\n");
+    EXPECT_EQ(readText(std::string("PK\x03\x04\x14\x00", 6)).errors,
+              "error: the file is compressed (zip); unpack it first [points.format]\n");
+    EXPECT_EQ(readText(std::string("\xff\xfe"
+                                   "1\x00",
+                                   4))
+                  .errors,
+              "error: the file is UTF-16 text; save it as UTF-8 or plain text [points.format]\n");
+    EXPECT_EQ(readText(std::string("\x7f"
+                                   "ELF\x00",
+                                   5))
+                  .errors,
+              "error: the file is neither text nor a PLY or PCD cloud [points.format]\n");
+}
+
 std::string plyHeader(const std::string& format) {
     return "ply\nformat " + format +
            " 1.0\ncomment c\nelement vertex 2\nproperty float x\nproperty double y\nproperty float z\nproperty uchar red\n"

@@ -15,12 +15,13 @@ void expectPoint(const PointsRead& out, std::size_t i, double x, double y, doubl
 }
 
 TEST(PointTable, SeparatorsAndDecimalMarks) {
-    for (const std::string text : {"1.5,2,-3e-1\n4,5,6\n", "1.5 2 -0.3\n4 5 6\n", "  1.5\t2\t-0.3\r\n4\t5\t6\r\n",
-                                   "1.5;2;-0.3\n4;5;6", "1,5;2;-0,3\n4;5;6\n", "1,5 2 -0,3\n4 5 6\n",
-                                   "1,5\t2,0\t-0,3\n4\t5\t6\n", "1.5, 2, -0.3\n\n# remark\n4, 5, 6,\n",
-                                   "\xef\xbb\xbf"
-                                   "1.5,2,-0.3\n4,5,6\n",
-                                   "1.5,2,-0.3\r4,5,6\r"}) {
+    for (const std::string text :
+         {"1.5,2,-3e-1\n4,5,6\n", "1.5 2 -0.3\n4 5 6\n", "  1.5\t2\t-0.3\r\n4\t5\t6\r\n", "1.5;2;-0.3\n4;5;6",
+          "1,5;2;-0,3\n4;5;6\n", "1,5 2 -0,3\n4 5 6\n", "1,5\t2,0\t-0,3\n4\t5\t6\n", "1.5|2|-0.3\n4|5|6\n",
+          "1,5 | 2 | -0,3\n4 | 5 | 6\n", "1.5, 2, -0.3\n\n# remark\n4, 5, 6,\n",
+          "\xef\xbb\xbf"
+          "1.5,2,-0.3\n4,5,6\n",
+          "1.5,2,-0.3\r4,5,6\r"}) {
         const PointsRead out = readText(text);
         SCOPED_TRACE(text);
         expectPoint(out, 0, 1.5, 2.0, -0.3);

@@ -31,6 +31,17 @@ QifResults readGood(const std::string& text) {
     return results.value_or(QifResults{});
 }
 
+TEST(QifReader, PackedFilesSayWhatToDo) {
+    base::Diagnostics warnings;
+    for (const auto& [bytes, name] :
+         {std::pair(std::string("\x1f\x8b\x08\x00", 4), "gzip"), std::pair(std::string("PK\x03\x04"), "zip")}) {
+        const auto results = read(bytes, warnings);
+        ASSERT_FALSE(results.has_value());
+        EXPECT_EQ(results.error().front().message,
+                  std::string("the file is compressed (") + name + "); unpack it first");
+    }
+}
+
 TEST(QifWriter, IsReadBackAsItWas) {
     const InspectionReport report = test::qifReport(5000, Verdict::Accept);
     const QifResults results = readGood(test::qifText(report));

@@ -3,6 +3,7 @@
 // Tells the formats of measured points apart and calls the reader of each.
 #include <cusp/inspect/point_reader.hpp>
 
+#include "compressed.hpp"
 #include "points/formats.hpp"
 #include "points/point_text.hpp"
 
@@ -45,6 +46,8 @@ base::Result<MeasuredPoints> readMeasuredPoints(std::istream& in, const std::str
     const bool may_be_binary = format == "ply" || format == "pcd";
     if (!may_be_binary && (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")))
         out.error("points.format", "the file is UTF-16 text; save it as UTF-8 or plain text");
+    else if (const std::string_view packed = compressionOf(head); !packed.empty())
+        out.error("points.format", fmt::format("the file is compressed ({}); unpack it first", packed));
     else if (!may_be_binary && isBinary(head))
         out.error("points.format", "the file is neither text nor a PLY or PCD cloud");
     else if (format == "table")

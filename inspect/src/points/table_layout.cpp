@@ -46,6 +46,7 @@ char findSeparator(const Lines& lines, const Lines& rows) {
     };
     if (any(';')) return ';';
     if (any('\t')) return '\t';
+    if (any('|')) return '|';
     if (any(',') && !blanksSeparateCommas(rows)) return ',';
     return ' ';
 }
@@ -112,7 +113,11 @@ bool columnsFromNumbers(const Lines& rows, std::uint64_t line, TableLayout& layo
     const std::size_t begin =
         (fields.size() == 4 || fields.size() >= 7 || !isNumber(fields.front())) && holdsNames(rows, layout) ? 1 : 0;
     if (fields.size() < begin + 3) {
-        out.error("points.columns", fmt::format("{} columns are too few for x, y, z", fields.size()), line);
+        const bool one = fields.size() == 1;
+        out.error("points.columns",
+                  one ? "one column is too few for x, y, z; commas, semicolons, tabs, bars or blanks separate columns"
+                      : fmt::format("{} columns are too few for x, y, z", fields.size()),
+                  line);
         return false;
     }
     layout.position = {begin, begin + 1, begin + 2};

@@ -210,8 +210,10 @@ private:
 
     void takePoints(const Record& record) {
         if (record.points.empty())
-            return fail("qif.binary", fmt::format("point set {}: points in binary are not read yet", record.id),
-                        record.line);
+            return fail(
+                "qif.binary",
+                fmt::format("point set {}: its points are binary, which is not read; export them as text", record.id),
+                record.line);
         const std::size_t count = record.points.size() / 3;
         if (record.points.size() % 3 != 0 || std::to_string(count) != record.count)
             return fail("qif.count",

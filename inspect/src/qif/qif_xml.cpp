@@ -3,6 +3,8 @@
 // Expat feeds a stack of names; only what a record needs is kept.
 #include "qif/qif_xml.hpp"
 
+#include "compressed.hpp"
+
 #include <cusp/base/number_text.hpp>
 
 #include <algorithm>
@@ -53,6 +55,11 @@ public:
             in.read(static_cast<char*>(buffer), static_cast<std::streamsize>(block_bytes));
             if (in.bad()) return problem("io.read", "the document could not be read to its end");
             const auto got = in.gcount();
+            const std::string_view packed =
+                first_block_ ? compressionOf({static_cast<const char*>(buffer), static_cast<std::size_t>(got)}) : "";
+            first_block_ = false;
+            if (!packed.empty())
+                return problem("qif.compressed", fmt::format("the file is compressed ({}); unpack it first", packed));
             const bool last = got < static_cast<std::streamsize>(block_bytes);
             if (XML_ParseBuffer(parser_.get(), static_cast<int>(got), last ? 1 : 0) == XML_STATUS_ERROR) {
                 if (!stopped_)
@@ -198,6 +205,7 @@ private:
     std::size_t record_depth_ = 0;  ///< how deep the record's element lies; 0 outside of records
     std::vector<double>* numbers_ = nullptr;
     bool stopped_ = false;
+    bool first_block_ = true;
 };
 
 }  // namespace

@@ -116,7 +116,7 @@ function draw(input: InspectionInput): Child[] {
   const title = input.title ?? fileName(input.points_file ?? "Inspection");
   const origin = [
     input.points_file ? `Measured: ${input.points_file}` : "",
-    input.nominal_file ? `Nominal: ${input.nominal_file}` : "",
+    input.nominal_file ? `Nominal: ${input.nominal_file}${input.nominal_flipped ? " (normal turned round)" : ""}` : "",
     input.alignment ? `Fit: ${input.alignment.fit}` : "",
   ];
   const pair = [histogramCard(input), comparisonCard(input)];

@@ -104,6 +104,7 @@ export interface MapData extends PointData {
 export interface InspectionInput extends Stamp {
   points_file?: string;
   nominal_file?: string;
+  nominal_flipped?: boolean;
   points: number;
   measured?: { format?: string; kind?: string; kind_source?: string; probe_radius_mm?: number; mm_per_unit?: number; unit_stated?: boolean };
   alignment?: Alignment;

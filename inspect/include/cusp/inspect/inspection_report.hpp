@@ -37,6 +37,7 @@ struct Evaluation {
 struct InspectionReport {
     std::string points_file;
     std::string nominal_file;
+    bool nominal_flipped = false;  ///< its outward normal is the opposite of what the file says
     MeasuredPoints points;
     PointKind kind = PointKind::Surface;
     std::string kind_source;       ///< who said so: "flag", "file", "found by fitting both ways"
