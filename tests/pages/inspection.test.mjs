@@ -97,6 +97,16 @@ for (const scheme of ["light", "dark"]) {
     });
 }
 
+// Sizes of SVG rectangles are CSS properties: a rule for something else of the same class would win over their attributes.
+test("bars of the histogram are as high as their counts", async () => {
+    const page = await stage.show("inspection", sample);
+    const wrong = await page.evaluate(`[...document.querySelectorAll(".histogram rect.bar")]
+        .filter((e) => Math.abs(e.getBBox().height - Number(e.getAttribute("height"))) > 0.01).map((e) => e.outerHTML)`);
+    assert.deepEqual(wrong, []);
+    assert.ok(await page.evaluate("document.querySelectorAll('.histogram rect.bar').length") > 5);
+    assertQuiet(page);
+});
+
 test("every control and figure has a name", async () => {
     const page = await stage.show("inspection", sample);
     const nameless = await page.evaluate(`[...document.querySelectorAll("button, input, canvas[tabindex], svg[role], section, [role=group], [role=region]")]
