@@ -45,6 +45,7 @@ struct Flags {
     std::string monitor;
     std::string shdr;
     std::string ledger;
+    std::string pace = "real";
     bool monitor_commands = false;
     double tool_length_mm = 100.0;
     double lift_mm = 2.0;
@@ -193,6 +194,7 @@ ExitCode serve(const Flags& flags, const LoadedMachine& machine, comm::VirtualCo
                const comm::ControlOptions& control_options) {
     comm::StationOptions options;
     options.host.store_folder = flags.store;
+    options.pace = flags.pace == "fast" ? comm::Pace::AsFastAsPossible : comm::Pace::RealTime;
     options.listen = {.beyond_loopback = flags.beyond_loopback, .allowed = flags.allowed};
     comm::ControlStation station(control, options);
     ControlMonitorOptions page;
@@ -280,6 +282,12 @@ void addControllerCommand(CLI::App& app, Action& action) {
         ->needs(monitor);
     controller
         ->add_option("--shdr", flags->shdr, "Serves status to MTConnect agents (SHDR) at HOST:PORT, usually port 7878.")
+        ->needs(listen);
+    controller
+        ->add_option("--pace", flags->pace,
+                     "How time goes by while a program runs: real, or fast: as fast as this computer can.")
+        ->check(CLI::IsMember({"real", "fast"}))
+        ->capture_default_str()
         ->needs(listen);
     controller->add_option("--record", flags->record, "CSV of every sample of the axes and of the tool.");
     controller->add_flag("--beyond-loopback", flags->beyond_loopback, "Listens on other addresses than loopback.");

@@ -72,6 +72,11 @@ base::Result<comm::Program> readProgram(const SendFlags& flags) {
                         "another with --name",
                         program.name, comm::max_name_bytes),
             where);
+    if (text->find('\0') != std::string::npos) {
+        base::Diagnostics doubt;
+        doubt.warning("send.binary", "holds NUL bytes, as no NC program does; it is sent all the same", where);
+        tell(doubt);
+    }
     const ProgramFacts facts = factsOf(*text);
     program.blocks = facts.blocks;
     program.jumps_backward = facts.jump_line.has_value();

@@ -120,6 +120,23 @@ std::string sentText(const comm::Sender& sender, const SendFlags& flags, double 
     return out;
 }
 
+/// Said once, when the control answers that it is held for somebody else.
+class BusyNote {
+public:
+    void look(const comm::Sender& sender, const SendFlags& flags) {
+        if (told_ || !sender.waitsForAnother()) return;
+        told_ = true;
+        base::Diagnostics out;
+        out.note("dnc.busy",
+                 "the control is held for another sender or a program just armed; asking again for up to 40 s",
+                 {flags.to, 0, 0, {}});
+        tell(out);
+    }
+
+private:
+    bool told_ = false;
+};
+
 /// Said once, when the sender has judged the link and goes on all the same.
 class SlowLinkWarning {
 public:
@@ -177,8 +194,10 @@ ExitCode sendOverLink(const SendFlags& flags, const comm::LinkUrl& url, const co
     {
         ShownProgress progress("sending");
         SlowLinkWarning warning;
+        BusyNote busy;
         comm::runTransfer(sender, **link, progress, [&](const comm::Sender& at) {
             if (!options.refuse_slow_link) warning.look(at);
+            busy.look(at, flags);
             if (monitor) monitor->look(at);
         });
     }

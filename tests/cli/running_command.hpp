@@ -67,6 +67,10 @@ public:
     /// Its exit code.
     int end() {
         type("quit");
+        return exitCode();
+    }
+    /// Of a command that ends by itself.
+    int exitCode() {
         while (listen()) continue;
         int status = 0;
         EXPECT_EQ(::waitpid(process_, &status, 0), process_);

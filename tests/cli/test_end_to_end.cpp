@@ -4,42 +4,13 @@
 #include "../comm/link/fault_bridge.hpp"
 #include "command_line.hpp"
 #include "running_command.hpp"
-
-#include <cmath>
-#include <cstdio>
-#include <memory>
+#include "winding_program.hpp"
 
 namespace cusp::cli {
 namespace {
 
-const std::vector<std::string> place{"--wcs-origin-mm", "3000", "0", "-700"};
-
-/// Winds in five axes, numbered; about 45 bytes a block.
-std::string windingProgram(int blocks, double feed = 6000.0) {
-    std::string text =
-        "N1 G40 G17 G710 G94 G90 G60 G601\nN2 TRAFOOF\nN3 SUPA G0 Z0 D0\nN4 T=\"BALL_10\"\nN5 M6\nN6 D1\n"
-        "N7 CYCLE832(0.01,_ORI_FINISH,0.1)\nN8 G54\nN9 S8000 M3\nN10 G0 C20 A15\nN11 TRAORI\nN12 G54\n"
-        "N13 ORIAXES\nN14 G0 X0 Y0 C20 A15\nN15 Z30\nN16 G1 Z0 F" +
-        std::to_string(static_cast<int>(feed)) + "\n";
-    for (int i = 1; i <= blocks; ++i) {
-        const double s = 0.5 * i;
-        char block[160];
-        std::snprintf(block, sizeof block, "N%d X%.5f Y%.5f Z%.5f C%.5f A%.5f\n", 16 + i, 40.0 * std::sin(s / 40.0),
-                      0.05 * s + 0.4 * std::sin(s / 7.0), 2.0 * std::cos(s / 25.0) - 2.0,
-                      20.0 + 10.0 * std::sin(s / 60.0), 15.0 + 5.0 * std::sin(s / 45.0));
-        text += block;
-    }
-    return text + "N90001 G0 Z100\nN90002 TRAFOOF\nN90003 SUPA G0 Z0 D0\nN90004 M30\n";
-}
-
 class EndToEnd : public CommandLine {
 protected:
-    std::vector<std::string> controller(std::vector<std::string> more) const {
-        std::vector<std::string> out{"controller", "-m", "fooke-endura-ca"};
-        out.insert(out.end(), place.begin(), place.end());
-        out.insert(out.end(), more.begin(), more.end());
-        return out;
-    }
     base::ProcessOutcome send(const std::string& file, const std::string& url, std::vector<std::string> more = {}) {
         std::vector<std::string> words{"send", file, "--to", url, "--no-ledger"};
         words.insert(words.end(), more.begin(), more.end());
@@ -110,40 +81,56 @@ TEST_F(EndToEnd, AStarvedProgramIsResumed) {
     RunningCommand control(controller({"--listen", "tcp://127.0.0.1:0", "--fifo-kb", "16"}));
     const std::string url = control.behind("listening on ");
     const auto port = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
-    auto bridge = std::make_unique<comm::test::TcpBridge>(port, comm::test::BridgeFaults{}, 1);
+    // More than the FIFO holds, so that the program runs by then, and less than all of it.
+    comm::test::TcpBridge bridge(port, {.dies_after_bytes = 30'000}, 1);
     const std::string program = write("P.MPF", windingProgram(1200));
     control.type("enable 60");
     control.type("status");
     control.behind("override 100");
-    {
-        RunningCommand sender({"send", program, "--to", "tcp://127.0.0.1:" + std::to_string(bridge->port()), "--drip",
-                               "--start", "--no-ledger"});
-        control.behind("control active");
-        bridge.reset();
-        const std::string alarm = control.behind("alarm 700001 at line ");
-        const std::string behind = "resume at line ";
-        const std::size_t at = alarm.find(behind);
-        ASSERT_NE(at, std::string::npos) << alarm;
-        // Line and block number are the same in this program.
-        const std::string resume = alarm.substr(at + behind.size());
-        EXPECT_GT(std::stoi(resume), 17);
-        control.forget();
-        control.type("reset");
-        control.behind("control reset, transfer idle");
-        const auto rest =
-            send(program, url, {"-m", "fooke-endura-ca", "--resume-block", resume, "--arm", "--name", "REST"});
-        ASSERT_EQ(rest.exit_code, 0) << rest.errors;
-    }
-    control.type("override 120");
+    RunningCommand sender({"send", program, "--to", "tcp://127.0.0.1:" + std::to_string(bridge.port()), "--drip",
+                           "--start", "--no-ledger"});
+    control.behind("control active");
+    const std::string alarm = control.behind("alarm 700001 at line ");
+    const std::string behind = "resume at line ";
+    const std::size_t at = alarm.find(behind);
+    ASSERT_NE(at, std::string::npos) << alarm;
+    // Line and block number are the same in this program.
+    const std::string resume = alarm.substr(at + behind.size());
+    EXPECT_GT(std::stoi(resume), 17);
+    EXPECT_LT(std::stoi(resume), 30'000 / 45 + 17);
+    control.forget();
+    control.type("reset");
+    control.behind("control reset, transfer idle");
+    const auto rest =
+        send(program, url, {"-m", "fooke-endura-ca", "--resume-block", resume, "--arm", "--name", "REST"});
+    ASSERT_EQ(rest.exit_code, 0) << rest.errors;
     control.type("start");
     control.behind("program finished");
     EXPECT_EQ(control.end(), 0);
 }
 
+/// One in real time: as long by the clock as by the control.
+TEST_F(EndToEnd, ByTheClock) {
+    const std::string program = write("P.MPF", "G54 G90 G60\nSUPA G1 F6000 X50\nM30\n");
+    const auto alone = run({"controller", "-m", "three-axis", "--run", program, "--json"});
+    const double needs_s = nlohmann::json::parse(alone.output)["time_s"];
+    RunningCommand control({"controller", "-m", "three-axis", "--listen", "tcp://127.0.0.1:0"});
+    ASSERT_EQ(send(program, control.behind("listening on "), {"--arm"}).exit_code, 0);
+    const auto begin = std::chrono::steady_clock::now();
+    control.type("start");
+    control.behind("program finished");
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_GT(needs_s, 0.5);
+    EXPECT_GE(took.count(), needs_s - 0.25) << "what a step makes up for at most";
+    EXPECT_EQ(control.end(), 0);
+}
+
 TEST_F(EndToEnd, WhatWasRunIsWhatWasProgrammed) {
     const std::string program = write("P.MPF", windingProgram(150));
-    auto words = controller({"--run", program, "--record", path("R.csv")});
-    ASSERT_EQ(run(words).exit_code, 0);
+    std::vector<std::string> running{"controller", "-m",       "fooke-endura-ca", "--run",
+                                     program,      "--record", path("R.csv")};
+    running.insert(running.end(), place.begin(), place.end());
+    ASSERT_EQ(run(running).exit_code, 0);
     std::vector<std::string> verifying{
         "verify", program, "-m", "fooke-endura-ca", "--record", path("R.csv"), "--tool-length-mm", "100", "--json"};
     verifying.insert(verifying.end(), place.begin(), place.end());

@@ -102,6 +102,34 @@ TEST_F(SendCommand, AStartNeedsTheOperator) {
     EXPECT_EQ(control.host.programs["P.MPF"], program_text);
 }
 
+/// Whoever sends while another's program is armed learns why nothing happens.
+TEST_F(SendCommand, AHeldControlIsSaidToBeHeld) {
+    comm::ReceiverOptions options;
+    options.lease_s = 0.5;
+    ServedControl control("tcp://127.0.0.1:0", {}, options);
+    const auto first = send({program, "--to", control.url(), "--arm"});
+    ASSERT_EQ(first.exit_code, 0) << first.errors;
+    EXPECT_EQ(first.errors.find("[dnc.busy]"), std::string::npos);
+    const auto second = send({program, "--to", control.url()});
+    EXPECT_EQ(second.exit_code, 0) << second.errors;
+    EXPECT_NE(second.errors.find("the control is held for another sender or a program just armed; asking again for up "
+                                 "to 40 s [dnc.busy]"),
+              std::string::npos)
+        << second.errors;
+}
+
+TEST_F(SendCommand, WhatIsNoTextIsDoubted) {
+    ServedControl control("tcp://127.0.0.1:0");
+    const std::string text("%PDF-1.4\n\0\0\xff\n", 13);
+    const auto outcome = send({write("D.MPF", text), "--to", control.url()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("holds NUL bytes, as no NC program does; it is sent all the same [send.binary]"),
+              std::string::npos)
+        << outcome.errors;
+    control.stop();
+    EXPECT_EQ(control.host.programs["D.MPF"], text);
+}
+
 TEST_F(SendCommand, AKeyIsSentWithTheCommit) {
     const std::string key = write("key", "open sesame\n");
     ServedControl control("tcp://127.0.0.1:0", {}, {.commit_key = "open sesame"});

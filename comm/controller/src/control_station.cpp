@@ -16,6 +16,8 @@ constexpr double most_behind_s = 0.25;
 /// Of the control's time between two looks at the links.
 constexpr double fast_slice_s = 0.05;
 constexpr double idle_slice_s = 0.01;
+/// Of the clock: what a sender whose connection broke has to come back.
+constexpr double gone_s = 1.0;
 
 std::uint64_t seedOf(const StationOptions& options) {
     if (options.boot_seed != 0) return options.boot_seed;
@@ -50,8 +52,11 @@ bool ControlStation::waitsForFeed(double now_s) {
         seen_bytes_ = receiver_.acceptedBytes();
         seen_s_ = now_s;
     }
-    return fed && now_s - seen_s_ < options_.receiver.lease_s &&
-           control_.fifoFree() > control_.status().fifo_capacity / 2;
+    // Links without connections count none, ever.
+    const std::size_t connected = clients();
+    was_connected_ = was_connected_ || connected > 0;
+    const double patience_s = was_connected_ && connected == 0 ? gone_s : options_.receiver.lease_s;
+    return fed && now_s - seen_s_ < patience_s && control_.fifoFree() > control_.status().fifo_capacity / 2;
 }
 
 void ControlStation::passTime(double now_s) {

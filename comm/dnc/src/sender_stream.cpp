@@ -45,9 +45,12 @@ void Sender::onProbe(const Acknowledgement&, double now_s) {
     else
         probe_bytes_after_first_ += chunk_bytes_;
     if (probes_back_ < options_.probes) return;
-    // From the first reply to the last: the round trip before the first is no matter of the rate.
-    const double span_s = now_s - (probes_back_ > 1 ? first_probe_back_s_ : first_probe_s_);
-    const double bytes = probes_back_ > 1 ? static_cast<double>(probe_bytes_after_first_) : chunk_bytes_;
+    // From the first reply to the last: the round trip before the first is no matter of the rate. Replies that come together
+    // on a link quicker than this clock's use say nothing by their distance; then all counts, which is never too much.
+    constexpr double least_span_s = 1e-3;
+    const bool spread = probes_back_ > 1 && now_s - first_probe_back_s_ >= least_span_s;
+    const double span_s = now_s - (spread ? first_probe_back_s_ : first_probe_s_);
+    const double bytes = spread ? static_cast<double>(probe_bytes_after_first_) : probes_back_ * chunk_bytes_;
     statistics_.link_bytes_per_s = bytes / std::max(span_s, 1e-6);
     afterHello();
 }

@@ -26,7 +26,7 @@ post::MachineFile shippedMachine(const std::string& name) {
     return *file;
 }
 
-Bench::Bench(const std::string& machine_name, ControlOptions wanted)
+Bench::Bench(const std::string& machine_name, const ControlOptions& wanted)
     : file(shippedMachine(machine_name)),
       machine(file.machine),
       options(placed(wanted)),
@@ -81,7 +81,7 @@ FiveAxisProgram fiveAxisProgram(std::size_t blocks, double step_mm) {
          << "G0 X0 Y0 C20 A15\nZ50\nG1 Z0 F3000\n";
     std::size_t line = 16;
     out.first_cut_line = line + 1;
-    out.tips.push_back({0.0, 0.0, 0.0});
+    out.tips.emplace_back(0.0, 0.0, 0.0);
     for (std::size_t i = 1; i <= blocks; ++i) {
         const double s = step_mm * static_cast<double>(i);
         const double x = 40.0 * std::sin(s / 40.0);
@@ -91,7 +91,7 @@ FiveAxisProgram fiveAxisProgram(std::size_t blocks, double step_mm) {
         std::snprintf(block, sizeof block, "X%.5f Y%.5f Z%.5f C%.5f A%.5f\n", x, y, z, 20.0 + 10.0 * std::sin(s / 60.0),
                       15.0 + 5.0 * std::sin(s / 45.0));
         text << block;
-        out.tips.push_back({x, y, z});
+        out.tips.emplace_back(x, y, z);
     }
     text << "G0 Z100\nTRAFOOF\nSUPA G0 Z0 D0\nM30\n";
     out.last_cut_line = line + blocks;

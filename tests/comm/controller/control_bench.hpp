@@ -15,7 +15,7 @@ namespace cusp::comm::test {
 
 /// The machine, the control on it, and every sample.
 struct Bench {
-    explicit Bench(const std::string& machine_name, ControlOptions wanted = {});
+    explicit Bench(const std::string& machine_name, const ControlOptions& wanted = {});
 
     post::MachineFile file;
     kinematics::Machine machine;

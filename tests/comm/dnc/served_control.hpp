@@ -18,7 +18,7 @@ namespace cusp::comm::test {
 
 class ServedControl {
 public:
-    explicit ServedControl(const std::string& url, ListenOptions listen = {}, ReceiverOptions options = {})
+    explicit ServedControl(const std::string& url, const ListenOptions& listen = {}, ReceiverOptions options = {})
         : receiver_(std::move(options), host, 4711), service_(receiver_) {
         auto server = openServer(parseLinkUrl(url).value(), service_, listen);
         if (!server) throw std::runtime_error(base::toText(server.error()));

@@ -56,6 +56,7 @@ public:
             byte = static_cast<std::uint8_t>(byte ^ (1U << random_.below(8)));
         }
         for (int i = 0; i < copies; ++i) queue_.push_back({free_s_ + faults_.delay_s, bytes});
+        taken_ += static_cast<std::size_t>(count);
         return true;
     }
     /// Writes what is due; false when the end it writes to has closed.
@@ -73,6 +74,7 @@ public:
     double nextDueSeconds() const { return queue_.empty() ? clockSeconds() + 0.02 : queue_.front().due_s; }
     bool busyLine() const { return free_s_ > clockSeconds() + 0.002; }
     int from() const { return from_; }
+    std::size_t taken() const { return taken_; }
 
 private:
     struct Piece {
@@ -84,6 +86,7 @@ private:
     BridgeFaults faults_;
     base::Random random_;
     double free_s_ = 0.0;
+    std::size_t taken_ = 0;  ///< bytes, without those that were lost on purpose
     std::deque<Piece> queue_;
 };
 
@@ -178,7 +181,9 @@ void TcpBridge::serve(std::uint16_t target_port, BridgeFaults faults, std::uint6
     std::list<Pair> pairs;
     base::Random random(seed);
     const sockaddr_in target = loopback(target_port);
-    while (!stop_) {
+    std::size_t carried = 0;
+    const auto dead = [&] { return faults.dies_after_bytes > 0 && carried >= faults.dies_after_bytes; };
+    while (!stop_ && !dead()) {
         std::vector<pollfd> waiting{{listener_, POLLIN, 0}};
         double due_s = clockSeconds() + 0.02;
         for (Pair& pair : pairs) {
@@ -200,7 +205,9 @@ void TcpBridge::serve(std::uint16_t target_port, BridgeFaults faults, std::uint6
             static_cast<void>(random.next());
         }
         for (auto pair = pairs.begin(); pair != pairs.end();) {
+            const std::size_t before = pair->out.taken();
             const bool open = pair->out.take() && pair->back.take() && pair->out.give() && pair->back.give();
+            carried += pair->out.taken() - before;
             if (!open) {
                 for (const int end : pair->ends) ::close(end);
                 pair = pairs.erase(pair);
@@ -212,6 +219,7 @@ void TcpBridge::serve(std::uint16_t target_port, BridgeFaults faults, std::uint6
     for (const Pair& pair : pairs) {
         for (const int end : pair.ends) ::close(end);
     }
+    if (dead()) ::shutdown(listener_, SHUT_RDWR);
 }
 
 }  // namespace cusp::comm::test

@@ -21,6 +21,8 @@ struct BridgeFaults {
     double bytes_per_s = 0.0;  ///< 0: as fast as it goes
     double delay_s = 0.0;      ///< each way
     std::size_t piece_bytes = 4096;
+    /// TCP: after so many bytes to the target everything is closed, and nobody is let through any more; 0: never.
+    std::size_t dies_after_bytes = 0;
 };
 
 /// Two pseudo terminals, one for each end, and a thread that carries bytes between them.

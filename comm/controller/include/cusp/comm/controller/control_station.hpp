@@ -70,6 +70,7 @@ private:
     double begin_s_;
     double lost_s_ = 0.0;  ///< by which the control is behind the clock for good
     bool hurries_ = false;
+    bool was_connected_ = false;
     std::uint32_t seen_bytes_ = 0;
     double seen_s_ = 0.0;
 };

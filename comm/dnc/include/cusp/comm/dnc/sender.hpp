@@ -123,6 +123,8 @@ public:
     [[nodiscard]] const SenderStatistics& statistics() const { return statistics_; }
     [[nodiscard]] const std::optional<MachineStatus>& machine() const { return machine_; }
     [[nodiscard]] ReceiverState controlState() const { return control_state_; }
+    /// The control is held for another sender (`SenderOptions::busy_s`).
+    [[nodiscard]] bool waitsForAnother() const { return phase_ == Phase::Open && busy_until_s_.has_value(); }
     [[nodiscard]] const ProgramHeader& header() const { return header_; }
 
 private:
