@@ -57,7 +57,9 @@ base::Result<std::string> runReader(const std::string& path, base::Diagnostics& 
     base::ProcessLimits limits;
     limits.wall_s = options.time_limit_s;
     limits.cpu_s = options.time_limit_s;
+#ifndef __SANITIZE_ADDRESS__  // its shadow alone is terabytes of address space
     limits.address_space_bytes = options.memory_limit_bytes;
+#endif
     limits.output_bytes = std::size_t{2} << 30U;
     const std::string program = findReader(options);
     // A name that starts with a dash is still a name.
