@@ -259,3 +259,46 @@ export function tiltSample({ runs = 3, generations = 20, free = true } = {}) {
         seconds: 12.5,
     };
 }
+
+/** The benchmark surface with ripples along 14 passes, as `cusp optimize` writes it in true mode. */
+export function optimizationSample({ mode = "true", before = true, rows = 40, columns = 44 } = {}) {
+    const map = { x_mm: [], y_mm: [], z_mm: [], normal_x: [], normal_y: [], normal_z: [], deviation_mm: [] };
+    const before_deviation_mm = [];
+    for (let i = 0; i < rows; ++i) {
+        for (let j = 0; j < columns; ++j) {
+            const [u, v] = [i / (rows - 1), j / (columns - 1)];
+            const { at, normal } = benchmarkSurface(u, v);
+            ["x_mm", "y_mm", "z_mm"].forEach((key, k) => map[key].push(at[k]));
+            ["normal_x", "normal_y", "normal_z"].forEach((key, k) => map[key].push(normal[k]));
+            map.deviation_mm.push(0.0088 * Math.sin(14 * Math.PI * u) ** 2 - 0.004);
+            before_deviation_mm.push(0.02 * Math.sin(9 * Math.PI * u));
+        }
+    }
+    const path = { position_mm: [], pass: [] };
+    for (let pass = 0; pass < 14; ++pass)
+        for (let k = 0; k <= 20; ++k) {
+            path.position_mm.push(...benchmarkSurface((pass + 0.5) / 14, (pass % 2 === 0 ? k : 20 - k) / 20).at);
+            path.pass.push(pass);
+        }
+    const generations = Array.from({ length: 12 }, (_, g) => g);
+    const names = ["tool", "width_share", "depth_share", "curvature_safety"];
+    const front = (passes, time, deviation, on_front) => ({ tool: "FLAT_16", passes, machining_time_s: time, deviation_mm: deviation, on_front });
+    return {
+        schema: 1, command: "optimize", version: "0.1.0", job: "true.toml", folder: "out", name: "Benchmark", mode, planner: "cusp",
+        best: { tool: "FLAT_16" }, objective: 1.25, cc_points: 530, passes: 14, mean_chord_error_mm: 0.00087,
+        overcut_max_mm: 0.0078, undercut_max_mm: 0.0089, within_tolerance_percent: 100, reached_percent: 100, tolerance_mm: 0.01, grid_mm: 0.1,
+        machining_time_s: 60.1, evaluations: 96, viral_evaluations: 9, levelled_paths: 4, seed: 1, tools: ["FLAT_12", "FLAT_16"],
+        before: before ? { name: "best constant lead", tool: "TORUS_16_R3", passes: 28, cc_points: 901, machining_time_s: 118.3, overcut_max_mm: 0.02, undercut_max_mm: 0.02, within_tolerance_percent: 61.2 } : null,
+        convergence: {
+            evaluations: generations.map((g) => 8 * (g + 1)), viral_evaluations: generations.map((g) => Math.floor(0.8 * g)),
+            best: generations.map((g) => 1.25 + 0.5 * Math.exp(-g / 3)), mean: generations.map((g) => 1.4 + Math.exp(-g / 3)),
+            worst: generations.map((g) => 1.9 + 2 * Math.exp(-g / 3)), diversity: generations.map((g) => 0.9 * Math.exp(-g / 6)),
+        },
+        candidates: {
+            names, lower: [0, 0.8, -0.9, 1], upper: [1, 1.4, -0.5, 1.2], objectives: Array.from({ length: 96 }, (_, i) => 1.25 + Math.abs(Math.sin(7 * i)) * Math.exp(-i / 40)),
+            population: Array.from({ length: 8 }, (_, i) => ({ values: [i % 2, 1 + i / 40, -0.7, 1.1], objective: 1.25 + i / 100 })),
+        },
+        front: mode === "true" ? [front(12, 51.2, 0.0131, true), front(13, 55.2, 0.0097, true), front(14, 60.1, 0.0092, true), front(15, 64.2, 0.0093, false)] : [],
+        map: { ...map, ...(before ? { before_deviation_mm } : {}) }, path,
+    };
+}

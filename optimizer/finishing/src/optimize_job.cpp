@@ -75,7 +75,10 @@ Section<SearchJob> searchSection() {
                FieldRules{.min = 0.0, .max = 1.0})
         .field("search_grid_mm", &S::search_grid_mm, "True mode: grid of the looks while searching.", positive())
         .field("level_grid_mm", &S::level_grid_mm, "True mode: grid while passes are levelled.", positive())
-        .field("proof_grid_mm", &S::proof_grid_mm, "True mode: grid of the proof at the end.", positive());
+        .field("proof_grid_mm", &S::proof_grid_mm, "True mode: grid of the proof at the end.", positive())
+        .field("front_passes", &S::front_passes,
+               "True mode: the best is levelled with so many passes fewer and more too, for time against deviation.",
+               FieldRules{.min = 0.0, .max = 20.0});
     return section;
 }
 

@@ -67,22 +67,26 @@ PlanOptions optionsOf(const PaperProblem& problem, const PaperCandidate& candida
     return out;
 }
 
-base::Result<PaperCriteria> paperCriteria(const Workpiece& part, const PaperProblem& problem,
-                                          const PaperCandidate& candidate) {
+PaperCriteria criteriaOf(std::span<const CutContact> contacts, const PaperProblem& problem,
+                         const PaperCandidate& candidate) {
     const geometry::Cutter cutter = problem.tools[candidate.tool].cutter();
-    const auto contacts = planContacts(part, cutter, optionsOf(problem, candidate));
-    if (!contacts) return base::fail(contacts.error());
-    const auto points = contactsOf(*contacts);
     Spread chords;
     Spread scallops;
     const double radius = effectiveRadius(cutter, candidate.lead_rad, candidate.tilt_rad);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (i > 0 && points[i].pass == points[i - 1].pass) chords.take(chordError(points[i - 1], points[i]));
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if (i > 0 && contacts[i].pass == contacts[i - 1].pass) chords.take(chordError(contacts[i - 1], contacts[i]));
         scallops.take(
-            std::abs(scallopHeight(candidate.step_over_mm, radius, points[i].cross_curvature_per_mm.value_or(0.0))));
+            std::abs(scallopHeight(candidate.step_over_mm, radius, contacts[i].cross_curvature_per_mm.value_or(0.0))));
     }
     const double edge = cutter.corner_radius_mm > 0.0 ? 0.0 : edgeUndercut(problem.edge_radius_mm, candidate.lead_rad);
-    return PaperCriteria{chords.mean + scallops.mean + edge, static_cast<double>(points.size())};
+    return {chords.mean + scallops.mean + edge, static_cast<double>(contacts.size())};
+}
+
+base::Result<PaperCriteria> paperCriteria(const Workpiece& part, const PaperProblem& problem,
+                                          const PaperCandidate& candidate) {
+    const auto contacts = planContacts(part, problem.tools[candidate.tool].cutter(), optionsOf(problem, candidate));
+    if (!contacts) return base::fail(contacts.error());
+    return criteriaOf(contactsOf(*contacts), problem, candidate);
 }
 
 base::Result<optimizer::WeightedObjective> paperObjective(const Workpiece& part, const PaperProblem& problem) {

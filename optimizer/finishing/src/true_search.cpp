@@ -53,6 +53,16 @@ struct Search {
     }
 };
 
+/// Within what is allowed on the level grid; or within the whole tolerance there, and by the proof grid as well.
+base::Result<bool> inOrder(const Search& search, const ProvedPath& path) {
+    if (path.levelled.excess <= 1.0) return true;
+    const double deviation_mm = frontPointOf(path, search.problem, true, 0.0).deviation_mm;
+    if (!path.levelled.whole || deviation_mm > search.problem.tolerance_mm) return false;
+    const auto proved = prove(search.part, search.problem, path, false);
+    if (!proved) return base::fail(proved.error());
+    return proved->proved;
+}
+
 /// From a candidate to fewer passes while the tolerance holds, or to more until it does.
 base::Result<std::optional<ProvedPath>> toFewest(const Search& search, const Values& values,
                                                  std::vector<FrontPoint>& front, base::Progress& progress) {
@@ -66,7 +76,9 @@ base::Result<std::optional<ProvedPath>> toFewest(const Search& search, const Val
         progress.advance();
         if (!path) return base::fail(path.error());
         front.push_back(frontPointOf(*path, search.problem, true, 0.0));
-        if (path->levelled.excess <= 1.0) {
+        const auto holds = inOrder(search, *path);
+        if (!holds) return base::fail(holds.error());
+        if (*holds) {
             const bool was_coming_down = !best || path->time.total_s < best->time.total_s;
             if (was_coming_down) best = *std::move(path);
             if (count > start) break;
@@ -79,6 +91,34 @@ base::Result<std::optional<ProvedPath>> toFewest(const Search& search, const Val
         }
     }
     return best;
+}
+
+/// The best path with passes left out and added, each levelled to the tolerance that its ridges, which grow with the square of
+/// their width at least, leave in sight.
+base::Result<void> widenFront(const Search& search, TrueResult& out, base::Progress& progress) {
+    const FinishingPath& best = out.best.levelled.path;
+    const auto count = static_cast<std::int64_t>(best.contacts.options.passes.places.size());
+    const std::int64_t beside = search.problem.front_passes;
+    progress.begin(static_cast<std::uint64_t>(2 * beside), "time against deviation");
+    for (std::int64_t passes = std::max<std::int64_t>(2, count - beside); passes <= count + beside; ++passes) {
+        if (progress.stopRequested()) break;
+        const bool known = std::any_of(out.levelled.begin(), out.levelled.end(), [&](const FrontPoint& point) {
+            return point.tool == out.best.tool && point.passes == static_cast<std::size_t>(passes);
+        });
+        if (known) continue;
+        const double scale = std::pow(static_cast<double>(count) / static_cast<double>(passes), 2.0);
+        TrueProblem problem = search.problem;
+        problem.tolerance_mm *= scale;
+        PlanOptions options = best.contacts.options;
+        options.orientation.depth_offset_mm *= scale;
+        options.passes.scallop_mm *= scale;
+        auto path = leveled(search.part, problem, out.best.tool, options, passes);
+        progress.advance();
+        if (!path) return base::fail(path.error());
+        if (path->levelled.whole) out.levelled.push_back(frontPointOf(*path, problem, true, 0.0));
+    }
+    progress.end();
+    return {};
 }
 
 }  // namespace
@@ -110,6 +150,7 @@ base::Result<TrueResult> searchTrue(const Workpiece& part, const TrueProblem& pr
 
     TrueResult out;
     out.search = *std::move(found);
+    out.genes = encoding->genes();
     std::vector<const optimizer::Ledger::Entry*> order;
     for (const auto& entry : out.search.evaluated) order.push_back(&entry);
     std::sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
@@ -140,6 +181,7 @@ base::Result<TrueResult> searchTrue(const Workpiece& part, const TrueProblem& pr
     auto proved = prove(part, problem, *std::move(best), true);
     if (!proved) return base::fail(proved.error());
     out.best = *std::move(proved);
+    if (auto widened = widenFront(search, out, progress); !widened) return base::fail(widened.error());
     return out;
 }
 

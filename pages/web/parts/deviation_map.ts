@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // The part as measured, in three dimensions: turns with the mouse, the keys and buttons; values under the pointer.
-import { Box3, Box3Helper, Color, LineBasicMaterial, OrthographicCamera, Scene, Vector3, WebGLRenderer } from "three";
+import {
+  Box3, Box3Helper, BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments, OrthographicCamera, Scene, Vector3, WebGLRenderer,
+} from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import { ColorScale, legend, type ScaleRange } from "./color_scale";
@@ -22,6 +24,7 @@ export class DeviationMap implements Drawing {
   private readonly scene = new Scene();
   private readonly cloud: PointCloud;
   private readonly box: Box3Helper;
+  private readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false }));
   private controls: OrbitControls | undefined;
   private readonly axes = triadElement();
   private readonly tip = h("div", { class: "tip", hidden: true });
@@ -60,6 +63,28 @@ export class DeviationMap implements Drawing {
     this.ask();
   }
 
+  /** Lines over the points, e.g. a path: x, y, z of its places; a new `run` begins a new line. */
+  trace(position_mm: number[], run: number[]): void {
+    const where: number[] = [];
+    const c = this.cloud.center;
+    for (let i = 1; i < run.length; ++i) {
+      if (run[i] !== run[i - 1]) continue;
+      for (const k of [i - 1, i])
+        where.push((position_mm[3 * k] as number) - c.x, (position_mm[3 * k + 1] as number) - c.y, (position_mm[3 * k + 2] as number) - c.z);
+    }
+    this.lines.geometry.setAttribute("position", new Float32BufferAttribute(where, 3));
+    this.lines.frustumCulled = false;
+    this.lines.renderOrder = 1;
+    this.scene.add(this.lines);
+    this.element.dataset["trace"] = String(where.length / 6);
+    this.redraw();
+  }
+
+  showTrace(visible: boolean): void {
+    this.lines.visible = visible;
+    this.ask();
+  }
+
   /** The same points with other deviations, e.g. in the fixed datums. */
   show(deviation_mm: number[]): void {
     this.deviation_mm = deviation_mm;
@@ -81,6 +106,7 @@ export class DeviationMap implements Drawing {
     const scale = new ColorScale(this.range);
     const beyond = this.cloud.paint(scale, this.deviation_mm);
     this.renderer.setClearColor(new Color().setStyle(token("map-ground"), "srgb-linear"));
+    this.lines.material.color.setStyle(token("ink"), "srgb-linear");
     (this.box.material as LineBasicMaterial).color.setStyle(token("line"), "srgb-linear");
     const fresh = legend(scale, beyond);
     this.legendElement?.remove();

@@ -47,6 +47,7 @@ struct SearchJob {
     double search_grid_mm = 1.4;
     double level_grid_mm = 0.6;
     double proof_grid_mm = 0.1;
+    std::int64_t front_passes = 2;
 };
 
 /// Constant leads to compare with.

@@ -7,10 +7,12 @@
 #include <cusp/optimizer/evolution/evaluation.hpp>
 #include <cusp/optimizer/evolution/objective.hpp>
 #include <cusp/optimizer/finishing/contact_path.hpp>
+#include <cusp/optimizer/finishing/cut_contact.hpp>
 #include <cusp/toolpath/tool_library.hpp>
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cusp::finishing {
@@ -49,6 +51,9 @@ struct PaperCriteria {
     double error_mm = 0.0;
     double points = 0.0;
 };
+/// Of contacts whoever made them, with the candidate's step-over, lead and tilt.
+[[nodiscard]] PaperCriteria criteriaOf(std::span<const CutContact> contacts, const PaperProblem& problem,
+                                       const PaperCandidate& candidate);
 /// Errors: those of `planContacts`.
 [[nodiscard]] base::Result<PaperCriteria> paperCriteria(const Workpiece& part, const PaperProblem& problem,
                                                         const PaperCandidate& candidate);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cusp/base/progress.hpp>
+#include <cusp/optimizer/evolution/encoding.hpp>
 #include <cusp/optimizer/evolution/search.hpp>
 #include <cusp/optimizer/finishing/level_passes.hpp>
 #include <cusp/optimizer/finishing/machine_time.hpp>
@@ -31,6 +32,8 @@ struct TrueProblem {
     int search_rounds = 3;
     int level_rounds = 14;
     std::size_t finalists = 2;  ///< tools whose best candidate is levelled to the least number of passes
+    /// The best is levelled with so many passes fewer and more too, for the front of time against deviation.
+    std::int64_t front_passes = 2;
 };
 
 /// A path that was levelled: one place of the front of time against deviation.
@@ -55,6 +58,7 @@ struct TrueResult {
     ProvedPath best;
     std::vector<FrontPoint> levelled;  ///< everything that was levelled, and the time it takes
     optimizer::SearchSummary search;
+    std::vector<optimizer::Gene> genes;  ///< what was searched for
 };
 
 /// Searches tool, number of passes, depth and curvature safety by cheap looks; levels the best of the first tools to fewer and
