@@ -293,6 +293,17 @@ void BodySweep::cut(const Ray& ray, double low, double high, double from, double
     if (exit > entry) out.emplace_back(entry, exit);
 }
 
+bool BodySweep::asUprightBall(UprightBall& out) const {
+    if (!by_ball_ || body_->height() < 2.0 * body_->ballRadius()) return false;
+    for (int axis = 0; axis < 3; ++axis)
+        if (frame_(2, axis) == 1.0) {
+            out = {
+                body_->ballRadius(), body_->height(), {tip_[0], tip_[1], tip_[2]}, {way_[0], way_[1], way_[2]}, axis};
+            return true;
+        }
+    return false;
+}
+
 double BodySweep::depth(const Ray& ray, double s) const {
     // Golden section would do; the distance is convex in t, and the slope's sign says which half to keep.
     double from = 0.0;

@@ -3,6 +3,8 @@
 // What of a ray parallel to an axis one convex body sweeps in one move, or in a part of one whose axis turns little.
 #pragma once
 
+#include "upright_ball.hpp"
+
 #include <cusp/simulation/cutter_body.hpp>
 #include <cusp/simulation/tool_move.hpp>
 
@@ -47,6 +49,9 @@ public:
         if (by_ball_ && cutByBall(ray, low, high, out)) return;
         cut(ray, low, high, 0.0, 1.0, 0, out);
     }
+    /// The sweep as eight rays at a time take it; false where the tool is no ball on a long shaft, turns, or is not upright
+    /// in the stock.
+    [[nodiscard]] bool asUprightBall(UprightBall& out) const;
     /// How deep inside the sweep a point of the ray lies; negative outside.
     [[nodiscard]] double depth(const Ray& ray, double s) const;
 

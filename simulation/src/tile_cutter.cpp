@@ -71,29 +71,65 @@ struct TileCutter::Taken {
     Touch touch;
 };
 
-void TileCutter::cutRay(DexelTile& work, const TileFrame& frame, const BodySweep& sweep, std::size_t i, std::size_t j,
-                        Taken& taken) {
-    const std::size_t index = frame.index(i, j);
+bool TileCutter::materialIn(const DexelTile& work, const TileFrame& frame, const BodySweep& sweep, std::size_t index,
+                            double& low, double& high) {
     const double box_low = sweep.box().min()[frame.axis];
     const double box_high = sweep.box().max()[frame.axis];
-    double low = box_high;
-    double high = box_low;
+    low = box_high;
+    high = box_low;
     for (const DexelSpan& span : work.ray(index)) {
         if (span.to_mm <= box_low || span.from_mm >= box_high) continue;
         low = std::min(low, std::max(span.from_mm, box_low));
         high = std::max(high, std::min(span.to_mm, box_high));
     }
-    if (!(high > low)) return;
-    Vector3 at = frame.origin(lattice_, i, j);
-    const BodySweep::Ray ray = sweep.rayAlong(frame.axis, at);
+    return high > low;
+}
+
+void TileCutter::cutRay(DexelTile& work, const TileFrame& frame, const BodySweep& sweep, std::size_t i, std::size_t j,
+                        Taken& taken) {
+    double low = 0.0;
+    double high = 0.0;
+    if (!materialIn(work, frame, sweep, frame.index(i, j), low, high)) return;
     pieces_.clear();
-    sweep.cut(ray, low, high, pieces_);
-    if (pieces_.empty()) return;
+    sweep.cut(sweep.rayAlong(frame.axis, frame.origin(lattice_, i, j)), low, high, pieces_);
+    for (const auto& [from, to] : pieces_) take(work, frame, sweep, i, j, from, to, taken);
+}
+
+void TileCutter::cutRow(DexelTile& work, const TileFrame& frame, const BodySweep& sweep, const UprightBall& ball,
+                        std::size_t i, std::pair<std::size_t, std::size_t> nodes_of_v, Taken& taken) {
+    static_assert(UprightBall::lanes == DexelTile::side);
+    UprightBall::Row low{};
+    UprightBall::Row high{};
+    const auto [first, end] = nodes_of_v;
+    bool any = false;
+    for (std::size_t j = first; j < end; ++j) {
+        const std::size_t lane = j - frame.first_v;
+        any = materialIn(work, frame, sweep, frame.index(i, j), low[lane], high[lane]) || any;
+    }
+    if (!any) return;
+    UprightBall::Row v{};
+    for (std::size_t lane = 0; lane < UprightBall::lanes; ++lane)
+        v[lane] = lattice_.node(frame.v, frame.first_v + lane);
+    UprightBall::Row from;
+    UprightBall::Row to;
+    ball.sweep(frame.axis, lattice_.node(frame.u, i), v, from, to);
+    for (std::size_t j = first; j < end; ++j) {
+        const std::size_t lane = j - frame.first_v;
+        const double entry = std::max(low[lane], from[lane]);
+        const double exit = std::min(high[lane], to[lane]);
+        if (exit > entry) take(work, frame, sweep, i, j, entry, exit, taken);
+    }
+}
+
+void TileCutter::take(DexelTile& work, const TileFrame& frame, const BodySweep& sweep, std::size_t i, std::size_t j,
+                      double from, double to, Taken& taken) const {
     const SweepRole& role = batch_.roles[sweep.tag()];
-    const auto take = [&](double from, double to) {
-        const double volume = (to - from) * taken.area_mm2;
-        at[frame.axis] = 0.5 * (from + to);
+    Vector3 at = frame.origin(lattice_, i, j);
+    const auto accept = [&](double low, double high) {
+        const double volume = (high - low) * taken.area_mm2;
+        at[frame.axis] = 0.5 * (low + high);
         if (role.touches) {
+            const BodySweep::Ray ray = sweep.rayAlong(frame.axis, frame.origin(lattice_, i, j));
             const double depth = sweep.depth(ray, at[frame.axis]);
             const bool counts = depth > touch_tolerance_mm_;
             if (!role.cuts && !counts) return false;
@@ -107,14 +143,14 @@ void TileCutter::cutRay(DexelTile& work, const TileFrame& frame, const BodySweep
         }
         taken.volume_mm3 += volume;
         if (role.cuts)
-            for (const double end : {from, to}) {
+            for (const double end : {low, high}) {
                 at[frame.axis] = end;
                 const Vector3 away = at - sweep.middleTip();
                 taken.reach.extend(Eigen::Vector2d(away.dot(role.axis), away.dot(role.across)));
             }
         return true;
     };
-    for (const auto& [from, to] : pieces_) work.remove(index, from, to, first_move_ + role.move, take);
+    work.remove(frame.index(i, j), from, to, first_move_ + role.move, accept);
 }
 
 bool TileCutter::cut(const DexelTile& tile, const TileFrame& frame, std::uint32_t first_move, DexelTile& work,
@@ -152,8 +188,15 @@ bool TileCutter::cut(const DexelTile& tile, const TileFrame& frame, std::uint32_
         begun = true;
         Taken taken;
         taken.area_mm2 = lattice_.step_mm[frame.u] * lattice_.step_mm[frame.v] / 3.0;
-        for (std::size_t i = first_u; i < end_u; ++i)
+        UprightBall ball;
+        const bool by_rows = sweep.asUprightBall(ball);
+        for (std::size_t i = first_u; i < end_u; ++i) {
+            if (by_rows) {
+                cutRow(work, frame, sweep, ball, i, {first_v, end_v}, taken);
+                continue;
+            }
             for (std::size_t j = first_v; j < end_v; ++j) cutRay(work, frame, sweep, i, j, taken);
+        }
         if (!(taken.volume_mm3 > 0.0)) return;
         const SweepRole& role = batch_.roles[sweep.tag()];
         if (role.cuts && tally != nullptr) tally->add(role.move, taken.volume_mm3, taken.reach);

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cusp::simulation {
@@ -75,8 +76,16 @@ public:
 
 private:
     struct Taken;
+    /// Where a ray has material within the sweep's box, at the lowest and the highest; false where it has none.
+    static bool materialIn(const DexelTile& work, const TileFrame& frame, const BodySweep& sweep, std::size_t index,
+                           double& low, double& high);
     void cutRay(DexelTile& work, const TileFrame& frame, const BodySweep& sweep, std::size_t i, std::size_t j,
                 Taken& taken);
+    /// The same of the rays [first, end) at node i of u.
+    void cutRow(DexelTile& work, const TileFrame& frame, const BodySweep& sweep, const UprightBall& ball, std::size_t i,
+                std::pair<std::size_t, std::size_t> nodes_of_v, Taken& taken);
+    void take(DexelTile& work, const TileFrame& frame, const BodySweep& sweep, std::size_t i, std::size_t j,
+              double from, double to, Taken& taken) const;
 
     const DexelLattice& lattice_;
     const SweepBatch& batch_;

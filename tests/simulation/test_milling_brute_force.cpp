@@ -73,6 +73,30 @@ TEST(MillingBruteForce, ShiftingTools) {
     }
 }
 
+/// Balls on long shafts along an axis of the stock have a way of their own through the rays, eight at a time.
+TEST(MillingBruteForce, BallsAlongTheAxesOfTheStock) {
+    base::Random random(20263);
+    for (int i = 0; i < 90; ++i) {
+        SCOPED_TRACE(i);
+        ToolMove m = randomMove(random, 0.0);
+        Vector3 axis = Vector3::Zero();
+        axis[i % 3] = i % 7 == 6 ? -1.0 : 1.0;
+        m.from.axis = m.to.axis = axis;
+        const Vector3 way = m.to.tip_mm - m.from.tip_mm;
+        Vector3 straight = way;
+        const int kind = i / 3 % 6;
+        if (kind == 0) straight = way.dot(axis) * axis;        // plunging
+        if (kind == 1) straight = way - way.dot(axis) * axis;  // level
+        if (kind == 2) straight = Vector3::Zero();
+        if (kind == 3) straight = way.norm() * Vector3::Unit((i + 1) % 3);
+        m.to.tip_mm = m.from.tip_mm + straight;
+        // Shafts too short for it, just long enough, and long.
+        const double height = i % 5 == 0 ? random.uniform(3.0, 6.0) : i % 5 == 1 ? 6.0 : random.uniform(6.0, 30.0);
+        checkMove(toroidalCutter(6.0, 3.0, height), m, 2e-6, random);
+        if (HasFatalFailure()) return;
+    }
+}
+
 TEST(MillingBruteForce, TurningTools) {
     base::Random random(20262);
     for (int i = 0; i < 60; ++i) {
