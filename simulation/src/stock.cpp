@@ -73,6 +73,37 @@ void fill(Stock& stock, const SpansOf& spans_of) {
     }
 }
 
+/// Looks from a grid of places in and around a shape: none may see an edge where it ends, and none around it may be inside.
+base::Result<void> checkEncloses(const geometry::NominalShape& shape) {
+    constexpr int places = 12;
+    constexpr double around = 0.05;  // of the size of the shape
+    const Eigen::AlignedBox3d box = shape.bounds();
+    const Vector3 grow = Vector3::Constant(around * box.sizes().maxCoeff());
+    const Eigen::AlignedBox3d outer(Vector3(box.min() - grow), Vector3(box.max() + grow));
+    std::vector<Vector3> points;
+    for (int i = 0; i < places; ++i)
+        for (int j = 0; j < places; ++j)
+            for (int k = 0; k < places; ++k)
+                points.emplace_back(outer.min() + outer.sizes().cwiseProduct(Vector3(i, j, k)) / (places - 1));
+    std::vector<geometry::Footpoint> found(points.size());
+    shape.closest(points, found, false);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vector3& at = found[i].position;
+        if (found[i].on_boundary)
+            return base::fail("simulation.open-shape",
+                              fmt::format("the shape does not close a volume: it ends at X{:.3f} Y{:.3f} Z{:.3f}; the "
+                                          "stock must be a solid, or a box",
+                                          at.x(), at.y(), at.z()));
+        if (found[i].distance_mm < 0.0 && !box.contains(points[i]))
+            return base::fail(
+                "simulation.open-shape",
+                fmt::format("the shape does not close a volume: at X{:.3f} Y{:.3f} Z{:.3f} its material is "
+                            "on the outside; the stock must be a solid, or a box",
+                            at.x(), at.y(), at.z()));
+    }
+    return {};
+}
+
 }  // namespace
 
 DexelLattice DexelLattice::over(const Eigen::AlignedBox3d& box, double resolution_mm) {
@@ -144,6 +175,12 @@ base::Result<Stock> Stock::shape(const geometry::NominalShape& shape, const Eige
         shapeSpans(shape, *lattice, axis, origin, out);
     });
     return stock;
+}
+
+base::Result<Stock> Stock::solid(const geometry::NominalShape& shape, const StockOptions& options) {
+    if (const auto size = checked(shape.bounds(), options); !size) return base::fail(size.error());
+    if (const auto ok = checkEncloses(shape); !ok) return base::fail(ok.error());
+    return Stock::shape(shape, shape.bounds(), options);
 }
 
 std::span<const DexelSpan> Stock::ray(int axis, std::size_t u, std::size_t v) const {

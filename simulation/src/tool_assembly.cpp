@@ -68,10 +68,10 @@ base::Result<ToolAssembly> assemblyOf(const toolpath::Tool& tool, double clearan
     if (!assembly) return assembly;
     double height = tool.cutting_height_mm;
     for (const auto& ring : tool.shank_mm)
-        if (auto ok = stack(*assembly, ToolPart::Shank, {ring[0], ring[1], ring[1]}, clearance_mm, height); !ok)
+        if (auto ok = stack(*assembly, ToolPart::Shank, {ring[0], ring[1], ring.back()}, clearance_mm, height); !ok)
             return base::fail(ok.error());
     for (const auto& ring : tool.holder_mm)
-        if (auto ok = stack(*assembly, ToolPart::Holder, {ring[0], ring[1], ring[1]}, clearance_mm, height); !ok)
+        if (auto ok = stack(*assembly, ToolPart::Holder, {ring[0], ring[1], ring.back()}, clearance_mm, height); !ok)
             return base::fail(ok.error());
     height = tool.gauge_length_mm;
     for (const ProfileRing& ring : head)

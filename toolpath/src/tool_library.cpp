@@ -55,11 +55,19 @@ void checkStack(const Tool& tool, const TomlNode& table, Diagnostics& report) {
     for (const auto& [key, rings] : {std::pair{"shank_mm", &tool.shank_mm}, std::pair{"holder_mm", &tool.holder_mm}}) {
         for (std::size_t i = 0; i < rings->size(); ++i) {
             const ToolRing& ring = (*rings)[i];
-            height_mm += ring[0];
-            if (!(ring[0] > 0.0 && ring[1] > 0.0)) {
+            if (ring.size() != 2 && ring.size() != 3) {
                 report.error("tool.ring",
-                             fmt::format("ring {}: height and diameter must be above 0; they are {:g} and {:g} mm",
-                                         i + 1, ring[0], ring[1]),
+                             fmt::format("ring {}: it must be [height, diameter], or [height, lower diameter, upper "
+                                         "diameter], not {} numbers",
+                                         i + 1, ring.size()),
+                             at(table, key));
+                continue;
+            }
+            height_mm += ring[0];
+            if (std::any_of(ring.begin(), ring.end(), [](double length) { return !(length > 0.0); })) {
+                report.error("tool.ring",
+                             fmt::format("ring {}: height and diameters must be above 0; they are {:g} mm", i + 1,
+                                         fmt::join(ring, ", ")),
                              at(table, key));
             }
         }
@@ -132,8 +140,10 @@ Section<Tool> toolSection() {
                base::requiredPositive())
         .field("gauge_length_mm", &Tool::gauge_length_mm, "From the tip to the spindle's gauge plane.",
                base::requiredPositive())
-        .field("shank_mm", &Tool::shank_mm, "Rings [height, diameter] from the cutting height upwards.")
-        .field("holder_mm", &Tool::holder_mm, "Rings [height, diameter] from the shank upwards.")
+        .field(
+            "shank_mm", &Tool::shank_mm,
+            "Rings from the cutting height upwards: [height, diameter], or [height, lower diameter, upper diameter].")
+        .field("holder_mm", &Tool::holder_mm, "Rings from the shank upwards, likewise.")
         .check(checkTool);
     return section;
 }

@@ -72,6 +72,10 @@ public:
     [[nodiscard]] static base::Result<Stock> shape(const geometry::NominalShape& shape, const Eigen::AlignedBox3d& box,
                                                    const StockOptions& options);
 
+    /// A shape that encloses a volume by itself, as a blank must. Further error: `simulation.open-shape` where it ends somewhere,
+    /// or has its material outside.
+    [[nodiscard]] static base::Result<Stock> solid(const geometry::NominalShape& shape, const StockOptions& options);
+
     [[nodiscard]] const DexelLattice& lattice() const { return lattice_; }
     /// The spans of the ray along `axis` at node u of axis (axis + 1) % 3 and v of (axis + 2) % 3, in order.
     [[nodiscard]] std::span<const DexelSpan> ray(int axis, std::size_t u, std::size_t v) const;

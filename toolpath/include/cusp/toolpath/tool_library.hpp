@@ -7,7 +7,6 @@
 #include <cusp/base/toml_schema.hpp>
 #include <cusp/geometry/cutter.hpp>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,8 +15,8 @@
 
 namespace cusp::toolpath {
 
-/// A cylinder of a profile: its height along the tool axis and its diameter.
-using ToolRing = std::array<double, 2>;
+/// A cylinder of a profile: its height along the tool axis and its diameter; or a cone: height, lower and upper diameter.
+using ToolRing = std::vector<double>;
 
 struct Tool {
     enum class Shape : std::uint8_t { Flat, Ball, Toroidal, Tapered };
