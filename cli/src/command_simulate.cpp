@@ -47,6 +47,14 @@ void addInputs(CLI::App& app, SimulateFlags& flags) {
            "Ring of the spindle head above the gauge plane: height, lower and upper diameter, by commas; may be repeated.")
         ->delimiter(',')
         ->allow_extra_args(false);
+    app.add_option(
+           "--ram-mm", flags.ram_mm,
+           "Ring of the ram above the swivel's axis, which keeps the direction of Z while the tool leans: height, "
+           "lower and upper diameter, by commas; may be repeated.")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    app.add_option("--pivot-mm", flags.pivot_mm, "From the gauge plane up to the swivel's axis, for --ram-mm.")
+        ->capture_default_str();
     app.add_option("--clearance-mm", flags.clearance_mm, "Kept free around shank, holder and head.")
         ->capture_default_str();
     app.add_option("-m,--machine", flags.machine,

@@ -10,6 +10,7 @@
 #include <cusp/base/progress.hpp>
 #include <cusp/geometry/cad/nominal_file.hpp>
 #include <cusp/optimizer/tilt/tilt_search.hpp>
+#include <cusp/post/writer/post_options.hpp>
 
 #include <atomic>
 #include <chrono>
@@ -90,7 +91,7 @@ base::Result<void> findPlan(const Flags& flags, const tilt::TiltCase& problem, T
 }
 
 /// What is worth knowing of the path found, by routes the search did not take.
-base::Result<void> prove(const tilt::TiltCase& problem, TiltResult& result) {
+base::Result<void> prove(const tilt::TiltCase& problem, const LoadedMachine& machine, TiltResult& result) {
     const tilt::StartPath& path = problem.path();
     const auto poses = tilt::tilted(path, result.plan);
     std::vector<toolpath::CutterLocation> upright;
@@ -103,6 +104,13 @@ base::Result<void> prove(const tilt::TiltCase& problem, TiltResult& result) {
     auto start = problem.collisions(upright, problem.job().search.coarse_mm, stick_out);
     if (!start) return base::fail(start.error());
     result.start_collisions = *std::move(start);
+    if (result.proof.volume_mm3 <= 0.0) {
+        const auto text = tiltedText(problem, result.plan);
+        if (!text) return base::fail(text.error());
+        auto posted = provePosted(*text, post::programNameFromFile(problem.job().name), machine, problem);
+        if (!posted) return base::fail(posted.error());
+        result.posted = *std::move(posted);
+    }
     result.motion = tilt::axisMotion(problem.place(), path, poses);
     result.fitness.range_excess = result.motion.range_excess;
     if (result.motion.range_excess <= 0.0)
@@ -140,14 +148,14 @@ ExitCode runTilt(const Flags& flags) {
     result.machine = machine->file.machine.name;
     if (const auto found = findPlan(flags, **problem, result); !found) return failWith(found.error());
     if (interrupted()) return ExitCode::Interrupted;
-    if (const auto proved = prove(**problem, result); !proved) return failWith(proved.error());
+    if (const auto proved = prove(**problem, *machine, result); !proved) return failWith(proved.error());
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     if (const auto written = writeFiles(result, **problem); !written) return failWith(written.error());
     if (flags.json)
         sayJson(toJson(result, **problem));
     else
         say(toText(result, **problem) + (machine->unanchored() ? unanchored_text : ""));
-    return result.isFree() ? ExitCode::Done : ExitCode::FoundSomething;
+    return result.isProven() ? ExitCode::Done : ExitCode::FoundSomething;
 }
 
 }  // namespace
@@ -158,8 +166,9 @@ void addTiltCommand(CLI::App& app, Action& action) {
                                    "nothing: finds the point its axis goes through, on your machine.");
     const auto flags = std::make_shared<Flags>();
     tilt->add_option("JOB", flags->job_file, "Job file (TOML); `cusp schema tilt-job` lists its keys.")->required();
-    auto* output = tilt->add_option("-o,--output", flags->folder,
-                                    "Folder for tilted.apt, start.apt, report.html, report.json, convergence.csv.");
+    auto* output = tilt->add_option(
+        "-o,--output", flags->folder,
+        "Folder for tilted.apt, tilted.mpf (posted and proven), start.apt, report.html, report.json, convergence.csv.");
     tilt->add_option("--seed", flags->seed, "Seed of the search, instead of the job's.")->check(CLI::NonNegativeNumber);
     tilt->add_option("--generations", flags->generations, "Generations at most, instead of the job's.")
         ->check(CLI::PositiveNumber);

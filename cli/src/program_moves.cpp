@@ -124,17 +124,24 @@ private:
 
 }  // namespace
 
+base::Result<CutterPath> readProgramMoves(std::istream& stream, const std::string& name, const LoadedMachine& machine,
+                                          const toolpath::ToolLibrary& library, const toolpath::Tool* tool,
+                                          double chord_tolerance_mm, base::Diagnostics& report) {
+    MoveSink sink(name, machine, library, tool, chord_tolerance_mm, report);
+    post::reader::readProgram(stream, name, machine.file, {}, sink, report);
+    if (report.hasErrors()) return base::fail(report);
+    return sink.finish();
+}
+
 base::Result<CutterPath> readProgramMoves(const std::string& file, const LoadedMachine& machine,
                                           const toolpath::ToolLibrary& library, const toolpath::Tool* tool,
                                           double chord_tolerance_mm) {
     auto input = TextInput::open(file);
     if (!input) return base::fail(input.error());
     base::Diagnostics report;
-    MoveSink sink(input->name(), machine, library, tool, chord_tolerance_mm, report);
-    post::reader::readProgram(input->stream(), input->name(), machine.file, {}, sink, report);
-    if (report.hasErrors()) return base::fail(std::move(report));
-    tell(report);
-    return sink.finish();
+    auto moves = readProgramMoves(input->stream(), input->name(), machine, library, tool, chord_tolerance_mm, report);
+    if (moves) tell(report);
+    return moves;
 }
 
 }  // namespace cusp::cli

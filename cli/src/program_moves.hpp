@@ -9,6 +9,7 @@
 #include <cusp/simulation/tool_move.hpp>
 #include <cusp/toolpath/tool_library.hpp>
 
+#include <istream>
 #include <string>
 
 namespace cusp::cli {
@@ -20,5 +21,11 @@ namespace cusp::cli {
 [[nodiscard]] base::Result<simulation::CutterPath>
 readProgramMoves(const std::string& file, const LoadedMachine& machine, const toolpath::ToolLibrary& library,
                  const toolpath::Tool* tool, double chord_tolerance_mm);
+
+/// The same from a stream; `name` is for messages, warnings go to `report`.
+[[nodiscard]] base::Result<simulation::CutterPath>
+readProgramMoves(std::istream& stream, const std::string& name, const LoadedMachine& machine,
+                 const toolpath::ToolLibrary& library, const toolpath::Tool* tool, double chord_tolerance_mm,
+                 base::Diagnostics& report);
 
 }  // namespace cusp::cli

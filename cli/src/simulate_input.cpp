@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -68,23 +69,57 @@ base::Result<simulation::CutterPath> readClMoves(const SimulateFlags& flags, con
     return collector.finish();
 }
 
+base::Result<std::vector<simulation::ProfileRing>> ringsOf(const std::vector<double>& numbers, const char* code,
+                                                           const char* flag) {
+    if (numbers.size() % 3 != 0)
+        return base::fail(code,
+                          fmt::format("a ring is three numbers, height, lower and upper diameter; {} got {} in all",
+                                      flag, numbers.size()));
+    std::vector<simulation::ProfileRing> out;
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) out.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+    return out;
+}
+
+base::Result<RamShape> ramOf(const SimulateFlags& flags, const std::optional<LoadedMachine>& machine) {
+    RamShape ram{flags.pivot_mm, {}, flags.clearance_mm};
+    auto rings = ringsOf(flags.ram_mm, "simulate.ram", "--ram-mm");
+    if (!rings) return base::fail(rings.error());
+    ram.rings = *std::move(rings);
+    if (ram.rings.empty()) return ram;
+    if (!(flags.pivot_mm >= 0.0))
+        return base::fail(
+            "simulate.ram",
+            fmt::format("--pivot-mm is {} mm; the swivel's axis lies above the gauge plane", flags.pivot_mm));
+    if (!machine) return ram;
+    for (const std::string& axis : machine->model.rotaryNames())
+        if (machine->file.machine.carriesWorkpiece(axis))
+            return base::fail("simulate.ram",
+                              fmt::format("{} turns the workpiece with {}: its ram does not keep its direction in the "
+                                          "part. Where nothing swivels on the tool's side, the ram goes with the tool: "
+                                          "give it with --head-mm",
+                                          machine->file.machine.name, axis));
+    return ram;
+}
+
 base::Result<std::vector<simulation::ToolAssembly>> assembliesOf(const SimulateFlags& flags,
                                                                  const simulation::CutterPath& path) {
-    if (flags.head_mm.size() % 3 != 0)
-        return base::fail("simulate.head", fmt::format("a ring of the head is three numbers, height, lower and upper "
-                                                       "diameter; --head-mm got {} in all",
-                                                       flags.head_mm.size()));
-    std::vector<simulation::ProfileRing> head;
-    for (std::size_t i = 0; i + 2 < flags.head_mm.size(); i += 3)
-        head.push_back({flags.head_mm[i], flags.head_mm[i + 1], flags.head_mm[i + 2]});
+    const auto head = ringsOf(flags.head_mm, "simulate.head", "--head-mm");
+    if (!head) return base::fail(head.error());
     std::vector<simulation::ToolAssembly> out;
     for (std::size_t i = 0; i < path.cutters.size(); ++i) {
-        auto assembly = path.tools[i] != nullptr ? simulation::assemblyOf(*path.tools[i], flags.clearance_mm, head)
+        auto assembly = path.tools[i] != nullptr ? simulation::assemblyOf(*path.tools[i], flags.clearance_mm, *head)
                                                  : simulation::assemblyOf(path.cutters[i]);
         if (!assembly) return base::fail(assembly.error());
         out.push_back(*std::move(assembly));
     }
     return out;
+}
+
+/// The room does not know the file its complaint is about.
+base::Result<simulation::Stock> failAt(const base::Diagnostics& report, const std::string& file) {
+    base::Diagnostics out;
+    for (const base::Diagnostic& one : report) out.error(one.code, one.message, {file, {}, {}, {}});
+    return base::fail(std::move(out));
 }
 
 base::Result<simulation::Stock> stockOf(const SimulateFlags& flags) {
@@ -102,9 +137,14 @@ base::Result<simulation::Stock> stockOf(const SimulateFlags& flags) {
     auto shape = geometry::loadNominal(flags.stock, report);
     if (!shape) return base::fail(shape.error());
     tell(report);
-    if (const auto* mesh = dynamic_cast<const geometry::MeshShape*>(shape->get()))
-        return simulation::Stock::mesh(mesh->mesh(), options);
-    return simulation::Stock::shape(**shape, (*shape)->bounds(), options);
+    if (const auto* mesh = dynamic_cast<const geometry::MeshShape*>(shape->get())) {
+        auto stock = simulation::Stock::mesh(mesh->mesh(), options);
+        if (!stock) return failAt(stock.error(), flags.stock);
+        return stock;
+    }
+    auto solid = simulation::Stock::solid(**shape, options);
+    if (!solid) return failAt(solid.error(), flags.stock);
+    return solid;
 }
 
 base::Result<void> loadShapes(const SimulateFlags& flags, SimulateInput& input) {
@@ -126,18 +166,29 @@ base::Result<void> loadShapes(const SimulateFlags& flags, SimulateInput& input) 
 
 /// A path that never comes near the stock is in another frame, or another unit.
 base::Result<void> checkReach(const SimulateInput& input, const std::string& file) {
+    const Eigen::AlignedBox3d& box = input.stock->lattice().box;
     Eigen::AlignedBox3d way;
-    double reach = 0.0;
+    bool meets = false;
     for (const simulation::ToolMove& move : input.path.moves) {
         way.extend(move.from.tip_mm);
         way.extend(move.to.tip_mm);
-        const simulation::ToolAssembly& tool = input.assemblies[move.cutter];
-        reach = std::max(reach, tool.bodies.front().body.height() + tool.bodies.front().body.largestRadius());
+        const simulation::CutterBody& cutter = input.assemblies[move.cutter].bodies.front().body;
+        // A turning tool bulges beyond its ends by less than what the turn takes from its height.
+        const double bulge =
+            cutter.height() * (1.0 - std::cos(0.5 * geometry::angleBetween(move.from.axis, move.to.axis)));
+        Eigen::AlignedBox3d swept;
+        for (const toolpath::CutterLocation& at : {move.from, move.to}) {
+            const geometry::Vector3 disc =
+                cutter.largestRadius() * (geometry::Vector3::Ones() - at.axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+            for (const double height : {0.0, cutter.height()})
+                for (const double side : {-1.0, 1.0}) {
+                    const geometry::Vector3 rim = disc + geometry::Vector3::Constant(bulge);
+                    swept.extend(geometry::Vector3(at.tip_mm + height * at.axis + side * rim));
+                }
+        }
+        meets = meets || swept.intersects(box);
     }
-    const Eigen::AlignedBox3d& box = input.stock->lattice().box;
-    const geometry::Vector3 grow = geometry::Vector3::Constant(reach);
-    if (Eigen::AlignedBox3d(geometry::Vector3(way.min() - grow), geometry::Vector3(way.max() + grow)).intersects(box))
-        return {};
+    if (meets) return {};
     return base::fail(
         "simulate.outside",
         fmt::format(
@@ -178,6 +229,9 @@ base::Result<std::unique_ptr<SimulateInput>> readSimulateInput(const SimulateFla
     auto assemblies = assembliesOf(flags, input->path);
     if (!assemblies) return base::fail(assemblies.error());
     input->assemblies = *std::move(assemblies);
+    auto ram = ramOf(flags, input->machine);
+    if (!ram) return base::fail(ram.error());
+    input->ram = *std::move(ram);
     auto stock = stockOf(flags);
     if (!stock) return base::fail(stock.error());
     input->stock = *std::move(stock);

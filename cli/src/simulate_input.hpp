@@ -29,6 +29,8 @@ struct SimulateFlags {
     std::string tool_library;
     std::string tool;
     std::vector<double> head_mm;
+    std::vector<double> ram_mm;
+    double pivot_mm = 0.0;
     double clearance_mm = 0.0;
     std::string machine;
     std::vector<double> wcs_origin_mm;
@@ -41,6 +43,13 @@ struct SimulateFlags {
     std::string output;
     bool strict = false;
     bool json = false;
+};
+
+/// What keeps the direction of the part's Z while the tool leans; no rings: nothing does.
+struct RamShape {
+    double pivot_mm = 0.0;                       ///< from the gauge plane up to the swivel's axis
+    std::vector<simulation::ProfileRing> rings;  ///< from the swivel's axis upwards
+    double clearance_mm = 0.0;
 };
 
 /// A solid that must not be touched.
@@ -58,11 +67,12 @@ struct SimulateInput {
     std::optional<simulation::Stock> stock;
     std::unique_ptr<geometry::NominalShape> nominal;
     std::vector<Obstacle> obstacles;
+    RamShape ram;
     bool is_program = false;  ///< of a control, not a CL file
 };
 
 /// Reads everything and says what is wrong with it, before any work begins.
-/// Errors: those of the readers; `simulate.stock` (none, or two), `simulate.tool`, `simulate.head`, `simulate.machine` (a program without one),
+/// Errors: those of the readers; `simulate.stock` (none, or two), `simulate.tool`, `simulate.head`, `simulate.ram`, `simulate.machine` (a program without one),
 /// `simulate.pose` (the program does not tell where the tool is), `simulate.outside` (the path misses the stock).
 [[nodiscard]] base::Result<std::unique_ptr<SimulateInput>> readSimulateInput(const SimulateFlags& flags);
 

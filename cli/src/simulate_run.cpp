@@ -5,6 +5,7 @@
 
 #include "console.hpp"
 #include "progress_bar.hpp"
+#include "ram_moves.hpp"
 
 #include <cusp/base/units.hpp>
 #include <cusp/geometry/mesh_shape.hpp>
@@ -13,6 +14,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace cusp::cli {
@@ -38,22 +41,50 @@ double coarse(const Eigen::AlignedBox3d& box, double resolution_mm) {
     return std::min(std::max(resolution_mm, box.sizes().maxCoeff() / nodes_of_obstacles), box.sizes().minCoeff());
 }
 
-void addTouches(const simulation::CollisionVolume& found, const std::string& with, const std::string& file,
-                std::vector<FoundCollision>& out) {
-    for (const Collision& collision : found.collisions) out.push_back({with, file, collision});
+/// What is simulated: the path's moves, or these and the ram's.
+struct Movers {
+    std::span<const simulation::ToolMove> moves;
+    std::span<const simulation::ToolAssembly> assemblies;
+    const RamMoves* ram = nullptr;
+
+    /// By the path's own moves; the chords of the ram in one move are one collision.
+    void add(const Collision& found, const std::string& with, const std::string& file,
+             std::vector<FoundCollision>& out) const {
+        FoundCollision mine{with, file, found, ram != nullptr && ram->isRam(found.move)};
+        if (ram != nullptr) mine.collision.move = ram->origin(found.move);
+        if (mine.ram && !out.empty() && out.back().ram && out.back().collision.move == mine.collision.move &&
+            out.back().with == with && out.back().file == file) {
+            Collision& one = out.back().collision;
+            mine.collision.volume_mm3 += one.volume_mm3;
+            if (one.depth_mm > mine.collision.depth_mm) {
+                mine.collision.depth_mm = one.depth_mm;
+                mine.collision.position_mm = one.position_mm;
+            }
+            out.back() = mine;
+            return;
+        }
+        out.push_back(std::move(mine));
+    }
+};
+
+void addTouches(const Movers& movers, const simulation::CollisionVolume& found, const std::string& with,
+                const std::string& file, std::vector<FoundCollision>& out) {
+    for (const Collision& collision : found.collisions) movers.add(collision, with, file, out);
 }
 
-base::Result<void> measureObstacles(const SimulateFlags& flags, const SimulateInput& input, SimulateResult& done) {
+base::Result<void> measureObstacles(const SimulateFlags& flags, const SimulateInput& input, const Movers& movers,
+                                    SimulateResult& done) {
     const auto memory = static_cast<std::uint64_t>(flags.memory_mb * 1024.0 * 1024.0);
     const Eigen::AlignedBox3d& box = input.stock->lattice().box;
-    const bool only_cutters = std::all_of(input.assemblies.begin(), input.assemblies.end(),
-                                          [](const auto& tool) { return tool.bodies.size() == 1; });
+    const bool only_cutters = std::all_of(movers.assemblies.begin(), movers.assemblies.end(), [](const auto& tool) {
+        return tool.bodies.size() == 1 && tool.bodies.front().part == ToolPart::Cutter;
+    });
     if (input.nominal && !only_cutters) {
         done.nominal_resolution_mm = coarse(box, flags.resolution_mm);
         auto solid = solidOf(*input.nominal, box, done.nominal_resolution_mm, memory);
         if (!solid) return base::fail(solid.error());
-        addTouches(simulation::CollisionField(*std::move(solid)).measure(input.path.moves, input.assemblies), "nominal",
-                   {}, done.collisions);
+        addTouches(movers, simulation::CollisionField(*std::move(solid)).measure(movers.moves, movers.assemblies),
+                   "nominal", {}, done.collisions);
     }
     for (const Obstacle& obstacle : input.obstacles) {
         const Eigen::AlignedBox3d around = obstacle.shape->bounds();
@@ -61,7 +92,8 @@ base::Result<void> measureObstacles(const SimulateFlags& flags, const SimulateIn
         if (!solid) return base::fail(solid.error());
         simulation::CollisionQuery query;
         query.with_cutter = true;
-        addTouches(simulation::CollisionField(*std::move(solid)).measure(input.path.moves, input.assemblies, query),
+        addTouches(movers,
+                   simulation::CollisionField(*std::move(solid)).measure(movers.moves, movers.assemblies, query),
                    obstacle.kind, obstacle.file, done.collisions);
     }
     return {};
@@ -111,6 +143,18 @@ void checkRange(const SimulateFlags& flags, const SimulateInput& input, Simulate
     }
 }
 
+/// Reports speak of the path's moves.
+void keepOwnMoves(const RamMoves& ram, SimulateResult& done) {
+    std::vector<simulation::MoveEngagement> own;
+    for (std::size_t i = 0; i < done.milling.moves.size(); ++i)
+        if (!ram.isRam(static_cast<std::uint32_t>(i))) own.push_back(done.milling.moves[i]);
+    done.milling.moves = std::move(own);
+    for (Collision& collision : done.milling.collisions) collision.move = ram.origin(collision.move);
+    if (!done.deviation) return;
+    for (simulation::DeviationPoint& point : done.deviation->points)
+        if (point.move != simulation::DexelSpan::no_cut) point.move = ram.origin(point.move);
+}
+
 }  // namespace
 
 base::Result<SimulateResult> runSimulation(const SimulateFlags& flags, SimulateInput& input) {
@@ -118,28 +162,37 @@ base::Result<SimulateResult> runSimulation(const SimulateFlags& flags, SimulateI
     SimulateResult done;
     done.before = *input.stock;
     done.after = *input.stock;
+    std::optional<RamMoves> ram;
+    if (!input.ram.rings.empty()) {
+        auto made = RamMoves::make(input);
+        if (!made) return base::fail(made.error());
+        ram = *std::move(made);
+    }
+    const Movers movers =
+        ram ? Movers{ram->moves(), ram->assemblies(), &*ram} : Movers{input.path.moves, input.assemblies, nullptr};
     simulation::MillingOptions options;
     options.sweep_tolerance_mm = flags.sweep_tolerance_mm;
     {
         ProgressBar bar("milling");
         options.progress = [&](std::size_t moves) {
-            bar.show(moves, input.path.moves.size());
+            bar.show(moves, movers.moves.size());
             return !interrupted();
         };
-        auto milling = simulation::mill(done.after, input.path.moves, input.assemblies, options);
+        auto milling = simulation::mill(done.after, movers.moves, movers.assemblies, options);
         if (!milling) return base::fail(milling.error());
         done.milling = *std::move(milling);
     }
     for (const Collision& collision : done.milling.collisions)
-        done.collisions.push_back({collision.part == ToolPart::Cutter ? "rapid" : "stock", {}, collision});
+        movers.add(collision, collision.part == ToolPart::Cutter ? "rapid" : "stock", {}, done.collisions);
     // Of second order in the resolution, where the sums of the rays are of first.
     done.removed_volume_mm3 = simulation::enclosedVolume(simulation::surfaceMesh(done.before)) -
                               simulation::enclosedVolume(simulation::surfaceMesh(done.after));
     if (done.milling.removed_volume_mm3 == 0.0) done.removed_volume_mm3 = 0.0;
-    if (const auto ok = measureObstacles(flags, input, done); !ok) return base::fail(ok.error());
+    if (const auto ok = measureObstacles(flags, input, movers, done); !ok) return base::fail(ok.error());
     std::stable_sort(done.collisions.begin(), done.collisions.end(),
                      [](const auto& a, const auto& b) { return a.collision.move < b.collision.move; });
     if (input.nominal) done.deviation = simulation::stockDeviation(done.after, *input.nominal, flags.tolerance_mm);
+    if (ram) keepOwnMoves(*ram, done);
     checkRange(flags, input, done);
     done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return done;

@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cusp::cli {
@@ -19,6 +20,9 @@ struct FoundCollision {
     std::string with;  ///< "stock", "rapid" (the cutter, through the stock), "nominal", "fixture", "table"
     std::string file;  ///< of a fixture or table
     simulation::Collision collision;
+    bool ram = false;  ///< of the ram, not of the tool's own part
+
+    [[nodiscard]] std::string_view part() const { return ram ? "ram" : simulation::nameOf(collision.part); }
 };
 
 /// A pose the machine does not reach.

@@ -18,7 +18,7 @@ std::string_view lineKey(const SimulateInput& input) { return input.is_program ?
 
 base::Json collisionJson(const SimulateInput& input, const FoundCollision& found) {
     const simulation::Collision& c = found.collision;
-    base::Json out{{"with", found.with}, {"part", simulation::nameOf(c.part)}, {"move", c.move}};
+    base::Json out{{"with", found.with}, {"part", found.part()}, {"move", c.move}};
     out[std::string(lineKey(input))] = input.path.moves[c.move].line;
     out["position_mm"] = vectorJson(c.position_mm);
     out["depth_mm"] = c.depth_mm;
@@ -126,9 +126,8 @@ std::string simulateText(const SimulateFlags& flags, const SimulateInput& input,
     for (std::size_t i = 0; i < std::min(most_lines, done.collisions.size()); ++i) {
         const FoundCollision& found = done.collisions[i];
         const std::string into = found.with == "rapid" ? "through the stock in a rapid move" : "into the " + found.with;
-        out += fmt::format("  COLLISION: {} {}, {:.3f} mm deep, {:.2f} mm³, {}\n",
-                           simulation::nameOf(found.collision.part), into, found.collision.depth_mm,
-                           found.collision.volume_mm3,
+        out += fmt::format("  COLLISION: {} {}, {:.3f} mm deep, {:.2f} mm³, {}\n", found.part(), into,
+                           found.collision.depth_mm, found.collision.volume_mm3,
                            placeText(input, found.collision.move, found.collision.position_mm));
     }
     if (done.collisions.size() > most_lines)

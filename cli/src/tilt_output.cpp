@@ -47,6 +47,37 @@ base::Json proofJson(const simulation::CollisionVolume& volume) {
     return out;
 }
 
+base::Json postedJson(const PostedProof& posted) {
+    base::Json out{{"pass", posted.pass()}};
+    out["not_posted"] = posted.not_posted.empty() ? base::Json() : base::Json(posted.not_posted);
+    out["excursions"] = posted.excursions;
+    out["verify_pass"] = posted.verification ? base::Json(posted.verification->pass) : base::Json();
+    if (const auto& verified = posted.verification) {
+        out["points"] = verified->points;
+        out["matched"] = verified->matched;
+        out["max_tip_error_mm"] = verified->max_tip_error_mm.value;
+        out["max_axis_error_deg"] = base::degFromRad(verified->max_axis_error_rad.value);
+        out["limit_violations"] = verified->limit_violations;
+        out["diagnostics"] = base::diagnosticsToJson(verified->findings);
+    }
+    out["simulated"] = posted.collisions ? proofJson(*posted.collisions) : base::Json();
+    return out;
+}
+
+std::string postedText(const PostedProof& posted) {
+    if (!posted.not_posted.empty()) return "  no program         " + posted.not_posted + "\n";
+    if (!posted.verification || !posted.collisions) return "  no program         the path is not free\n";
+    const auto& verified = *posted.verification;
+    return fmt::format("  posted program     {}: {} of {} points met, tip within {:.4f} mm, axis within {:.4f}°\n",
+                       verified.pass ? "verified" : "NOT verified", verified.matched, verified.points,
+                       verified.max_tip_error_mm.value, base::degFromRad(verified.max_axis_error_rad.value)) +
+           fmt::format("  collision, program {:10.3f} mm³, {:.3f} mm deep (of the moves read back from it)\n",
+                       posted.collisions->volume_mm3, posted.collisions->depth_mm) +
+           (posted.excursions > 0
+                ? fmt::format("  unwinding          the tool leaves the part {} times\n", posted.excursions)
+                : std::string());
+}
+
 base::Json generations(const tilt::TiltOutcome& outcome) {
     return outcome.generations_to_collision_free ? base::Json(*outcome.generations_to_collision_free) : base::Json();
 }
@@ -122,6 +153,11 @@ base::Json toJson(const TiltResult& result, const tilt::TiltCase& problem) {
     out["proof_resolution_mm"] = problem.job().search.proof_mm;
     out["start"] = {{"proof", proofJson(result.start_collisions)}, {"contact", contactJson(result.start_contact)}};
     out["tilted"] = {{"proof", proofJson(result.proof)}, {"contact", contactJson(result.contact)}};
+    out["proven"] = result.isProven();
+    out["program"] = result.posted.program.empty()
+                         ? base::Json()
+                         : base::Json((std::filesystem::path(result.folder) / "tilted.mpf").string());
+    out["posted"] = postedJson(result.posted);
     out["seed"] = result.runs.empty() ? base::Json() : base::Json(result.runs[result.best_run].first);
     out["runs"] = runsJson(result);
     out["seconds"] = result.seconds;
@@ -147,6 +183,7 @@ std::string toText(const TiltResult& result, const tilt::TiltCase& problem) {
                        result.start_collisions.depth_mm);
     out += fmt::format("  collision, tilted  {:10.3f} mm³, {:.3f} mm deep (simulated at {} mm, all motion included)\n",
                        result.proof.volume_mm3, result.proof.depth_mm, problem.job().search.proof_mm);
+    out += postedText(result.posted);
     out += fmt::format("  rotary travel      {:10.1f}° and {:.1f}°\n",
                        base::degFromRad(result.motion.rotary_travel_rad[0]),
                        base::degFromRad(result.motion.rotary_travel_rad[1]));
@@ -162,6 +199,10 @@ std::string toText(const TiltResult& result, const tilt::TiltCase& problem) {
     return out;
 }
 
+base::Result<std::string> tiltedText(const tilt::TiltCase& problem, const tilt::TiltPlan& plan) {
+    return clTextOf(tilt::tiltedRecords(problem.path(), plan));
+}
+
 base::Result<void> writeFiles(const TiltResult& result, const tilt::TiltCase& problem) {
     std::error_code error;
     std::filesystem::create_directories(result.folder, error);
@@ -170,7 +211,7 @@ base::Result<void> writeFiles(const TiltResult& result, const tilt::TiltCase& pr
                           {result.folder, 0, 0, {}});
     const auto start = clTextOf(problem.path().records);
     if (!start) return base::fail(start.error());
-    const auto tilted = clTextOf(tilt::tiltedRecords(problem.path(), result.plan));
+    const auto tilted = tiltedText(problem, result.plan);
     if (!tilted) return base::fail(tilted.error());
     const auto summary = base::jsonText(toJson(result, problem));
     if (!summary) return base::fail(summary.error());
@@ -183,6 +224,8 @@ base::Result<void> writeFiles(const TiltResult& result, const tilt::TiltCase& pr
                                      {"report.json", &*summary},
                                      {"report.html", &*page}})
         if (auto done = writeText(result.folder, name, *text); !done) return done;
+    if (!result.posted.program.empty())
+        if (auto done = writeText(result.folder, "tilted.mpf", result.posted.program); !done) return done;
     if (result.runs.empty()) return {};
     return writeText(result.folder, "convergence.csv", tilt::convergenceCsv(result.runs));
 }

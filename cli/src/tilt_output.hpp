@@ -3,6 +3,8 @@
 // What `cusp tilt` tells of a tilted path: as JSON, as text, as files in its folder.
 #pragma once
 
+#include "tilt_proof.hpp"
+
 #include <cusp/base/json_report.hpp>
 #include <cusp/optimizer/tilt/tilt_search.hpp>
 
@@ -26,6 +28,7 @@ struct TiltResult {
     std::optional<double> machining_time_s;
     simulation::CollisionVolume start_collisions;  ///< of the path as it came
     simulation::CollisionVolume proof;             ///< of the tilted path
+    PostedProof posted;
     std::optional<double> stick_out_mm;
     tilt::ContactReport start_contact;
     tilt::ContactReport contact;
@@ -33,11 +36,15 @@ struct TiltResult {
     double seconds = 0.0;
 
     [[nodiscard]] bool isFree() const { return fitness.range_excess <= 0.0 && proof.volume_mm3 <= 0.0; }
+    /// Free, and so is the posted program, which does what the path says.
+    [[nodiscard]] bool isProven() const { return isFree() && posted.pass(); }
 };
 
 [[nodiscard]] base::Json toJson(const TiltResult& result, const tilt::TiltCase& problem);
 [[nodiscard]] std::string toText(const TiltResult& result, const tilt::TiltCase& problem);
-/// start.apt, tilted.apt, convergence.csv, report.json, and report.html, in the folder, which is made where it is not there.
+/// The tilted path as it is written.
+[[nodiscard]] base::Result<std::string> tiltedText(const tilt::TiltCase& problem, const tilt::TiltPlan& plan);
+/// start.apt, tilted.apt, tilted.mpf (where it could be posted), convergence.csv, report.json, and report.html, in the folder, which is made where it is not there.
 [[nodiscard]] base::Result<void> writeFiles(const TiltResult& result, const tilt::TiltCase& problem);
 
 }  // namespace cusp::cli

@@ -51,6 +51,11 @@ TEST_F(Tilt, FromTheJobToAProvenProgram) {
     EXPECT_GT(summary["machining_time_s"].get<double>(), 0.0);
     EXPECT_GT(summary["start"]["proof"]["collision_volume_mm3"].get<double>(), 0.0);
     EXPECT_EQ(summary["tilted"]["proof"]["collision_volume_mm3"].get<double>(), 0.0);
+    EXPECT_TRUE(summary["proven"].get<bool>());
+    EXPECT_TRUE(summary["posted"]["verify_pass"].get<bool>());
+    EXPECT_EQ(summary["posted"]["matched"], summary["posted"]["points"]);
+    EXPECT_GT(summary["posted"]["matched"].get<int>(), 100);
+    EXPECT_EQ(summary["posted"]["simulated"]["collision_volume_mm3"].get<double>(), 0.0);
     EXPECT_NE(read("out/report.html").find("<html"), std::string::npos);
     EXPECT_EQ(read("out/convergence.csv").substr(0, 8), "run,seed");
 
@@ -58,6 +63,9 @@ TEST_F(Tilt, FromTheJobToAProvenProgram) {
     EXPECT_EQ(posted.exit_code, 0) << posted.errors;
     const auto verified = run({"verify", path("SMALL.MPF"), "-m", "trunnion-ac", "--against", path("out/tilted.apt")});
     EXPECT_EQ(verified.exit_code, 0) << verified.errors << verified.output;
+    // The program the command proved is one that others find in order too.
+    const auto again = run({"verify", path("out/tilted.mpf"), "-m", "trunnion-ac", "--against", path("out/tilted.apt")});
+    EXPECT_EQ(again.exit_code, 0) << again.errors << again.output;
 }
 
 TEST_F(Tilt, TheSameSeedGivesTheSameFile) {

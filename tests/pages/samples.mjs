@@ -254,6 +254,7 @@ export function tiltSample({ runs = 3, generations = 20, free = true } = {}) {
         fitness: { range_excess: 0, collision_volume_mm3: 0, harmony_s: 99.93 }, rotary_travel_deg: [1850.2, 412.6], rewinds: 0, machining_time_s: 71.4,
         shortest_stick_out_mm: 41.5, stick_out_mm: 46, center_error_max_mm: 0.0002, proof_resolution_mm: 0.2,
         start: { proof: proof(85.2), contact: contact(12.5) }, tilted: { proof: proof(free ? 0 : 0.4), contact: contact(61.3) }, seed: 1,
+        posted: free ? { pass: true, not_posted: null, excursions: 0, verify_pass: true, points: 941, matched: 941, simulated: proof(0) } : { pass: false, not_posted: null, excursions: 0, verify_pass: null, simulated: null },
         runs: Array.from({ length: runs }, (_, i) => ({ seed: i + 1, tilt_points_mm: [[i - 1.25, 0.5, 33.75]], generations_to_collision_free: i, evaluations: 2550, fitness: { range_excess: 0, collision_volume_mm3: 0, harmony_s: 99.93 + i } })),
         curves: Array.from({ length: runs }, (_, i) => ({ seed: i + 1, best: climb(0.4, i), mean: climb(3, i), worst: climb(9, i) })),
         seconds: 12.5,

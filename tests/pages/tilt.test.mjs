@@ -15,6 +15,7 @@ test("says whether the path is free, and shows every run", async () => {
     const page = await stage.show("tilt", tiltSample());
     assert.equal(await page.text("h1"), "CAVITY");
     assert.deepEqual(await page.texts("#comparison .tag"), ["free of collision"]);
+    assert.match(await page.text("#program"), /^Posted program proven: read back without a finding, 941 of 941 cutter locations met/);
     assert.equal((await page.texts("#runs tbody th")).length, 3);
     assert.equal(await page.evaluate("document.querySelectorAll('.chart canvas').length"), 1);
     assert.equal(await page.evaluate("document.documentElement.scrollWidth <= innerWidth"), true);
@@ -24,6 +25,7 @@ test("says whether the path is free, and shows every run", async () => {
 test("says it where it is not, and leaves out a search that was none", async () => {
     const page = await stage.show("tilt", { ...tiltSample({ free: false }), runs: [], curves: [] });
     assert.deepEqual(await page.texts("#comparison .tag"), ["not free of collision"]);
+    assert.match(await page.text("#program"), /^No program was posted/);
     assert.equal(await page.evaluate("document.querySelectorAll('.chart canvas').length"), 0);
     assertQuiet(page);
 });

@@ -148,11 +148,16 @@ TiltFitness TiltCase::judge(const TiltPlan& plan) const {
 
 base::Result<simulation::CollisionVolume> TiltCase::collisions(const std::vector<CutterLocation>& poses,
                                                                double resolution_mm, double stick_out_mm) const {
+    return collisions(movesOf(path_, poses), resolution_mm, stick_out_mm);
+}
+
+base::Result<simulation::CollisionVolume> TiltCase::collisions(std::span<const ToolMove> moves, double resolution_mm,
+                                                               double stick_out_mm) const {
     const auto field = fieldOf(resolution_mm);
     if (!field) return base::fail(field.error());
     const auto assembly = job_.tool.assembly(stick_out_mm);
     if (!assembly) return base::fail(assembly.error());
-    return field->measure(movesOf(path_, poses), std::vector{*assembly});
+    return field->measure(moves, std::vector{*assembly});
 }
 
 std::optional<double> TiltCase::shortestStickOut(const std::vector<CutterLocation>& poses, double step_mm) const {

@@ -6,7 +6,7 @@ import { card, h, type Child } from "../parts/dom";
 import { count, fixed } from "../parts/number";
 import { drawPage, footer, masthead } from "../parts/page";
 import { figures, table } from "../parts/table";
-import type { Run, RunCurves, TiltInput } from "./tilt_input";
+import type { Posted, Run, RunCurves, TiltInput } from "./tilt_input";
 
 const point = (at: number[]): string => `X${fixed(at[0], 2)} Y${fixed(at[1], 2)} Z${fixed(at[2], 2)}`;
 
@@ -42,6 +42,16 @@ function convergence(curves: RunCurves[]): Chart {
   });
 }
 
+/** What became of the path on the control: posted, read back, and the moves of the program simulated. */
+function program(posted: Posted | undefined): Child[] {
+  if (posted === undefined) return [];
+  const { points, matched, simulated } = posted;
+  if (points === undefined || matched === undefined || simulated === null)
+    return [h("p", { class: "soft", id: "program" }, posted.not_posted === null ? "No program was posted: the path is not free of collision." : `No program: ${posted.not_posted}`)];
+  const found = `${count(matched)} of ${count(points)} cutter locations met; its own moves, simulated, go through ${fixed(simulated.collision_volume_mm3, 3)} mm\u00b3 of the part`;
+  return [h("p", { class: "soft", id: "program" }, `Posted program ${posted.pass ? "proven" : "NOT proven"}: read back ${posted.verify_pass ? "without a finding" : "with findings"}, ${found}.`)];
+}
+
 function draw(input: TiltInput): Child[] {
   const { start, tilted } = input;
   const word = h("span", { class: `tag ${input.collision_free ? "accept" : "reject"}` }, input.collision_free ? "free of collision" : "not free of collision");
@@ -74,7 +84,7 @@ function draw(input: TiltInput): Child[] {
       { name: "Shortest stick-out", value: fixed(input.shortest_stick_out_mm, 1), unit: `mm of ${fixed(input.stick_out_mm, 1)}` },
       { name: "Free from generation", value: input.generations_to_collision_free === null ? "\u2013" : count(input.generations_to_collision_free) },
     ]),
-    card("comparison", input.tilt_points_mm.map(point).join("; "), word, comparison),
+    card("comparison", input.tilt_points_mm.map(point).join("; "), word, comparison, ...program(input.posted)),
     ...(input.runs.length > 0 ? [
       card("convergence", input.curves.length === 1 ? "The search" : `The search, mean of ${count(input.curves.length)} runs`, null, convergence(input.curves).element),
       card("runs", "Runs", null, runs),

@@ -17,6 +17,15 @@ export interface Proof {
   collisions: number;
 }
 
+export interface Posted {
+  pass: boolean;
+  not_posted: string | null;
+  verify_pass: boolean | null;
+  points?: number;
+  matched?: number;
+  simulated: Proof | null;
+}
+
 export interface Fitness {
   range_excess: number | null;
   collision_volume_mm3: number | null;
@@ -58,5 +67,6 @@ export interface TiltInput extends Stamp {
   start: { proof: Proof; contact: Contact };
   tilted: { proof: Proof; contact: Contact };
   runs: Run[];
+  posted?: Posted;
   curves: RunCurves[];
 }
