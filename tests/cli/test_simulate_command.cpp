@@ -136,10 +136,10 @@ TEST_F(SimulateCommand, ShankHolderAndHeadMeetFixtureTableAndNominal) {
     const auto posted = found({"--fixture", post}, 1);
     ASSERT_EQ(posted.size(), 1U);
     EXPECT_NEAR(posted.at("head fixture"), 3.0, 0.5);
-    // The cutter itself must not touch a table: its tip is 1 mm in it.
+    // The cutter itself must not touch a table: its tip is 1 mm in it. Depths are looked at where the rays are.
     const auto scratched = found({"--table", table}, 1);
     ASSERT_EQ(scratched.size(), 1U);
-    EXPECT_NEAR(scratched.at("cutter table"), 1.0, 0.1);
+    EXPECT_NEAR(scratched.at("cutter table"), 1.0, 0.3);
     // What shall stand beside the slot is in the holder's way, though nothing is there yet.
     const auto beside = found({"--nominal", clamp, "--tolerance-mm", "100"}, 1);
     ASSERT_EQ(beside.count("holder nominal"), 1U);

@@ -64,7 +64,8 @@ TEST_F(Tilt, FromTheJobToAProvenProgram) {
     const auto verified = run({"verify", path("SMALL.MPF"), "-m", "trunnion-ac", "--against", path("out/tilted.apt")});
     EXPECT_EQ(verified.exit_code, 0) << verified.errors << verified.output;
     // The program the command proved is one that others find in order too.
-    const auto again = run({"verify", path("out/tilted.mpf"), "-m", "trunnion-ac", "--against", path("out/tilted.apt")});
+    const auto again =
+        run({"verify", path("out/tilted.mpf"), "-m", "trunnion-ac", "--against", path("out/tilted.apt")});
     EXPECT_EQ(again.exit_code, 0) << again.errors << again.output;
 }
 

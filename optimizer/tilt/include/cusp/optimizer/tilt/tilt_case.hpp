@@ -78,8 +78,8 @@ public:
     [[nodiscard]] base::Result<simulation::CollisionVolume>
     collisions(const std::vector<toolpath::CutterLocation>& poses, double resolution_mm, double stick_out_mm) const;
     /// The same of moves from elsewhere, in the frame of the part: those of a posted program.
-    [[nodiscard]] base::Result<simulation::CollisionVolume>
-    collisions(std::span<const simulation::ToolMove> moves, double resolution_mm, double stick_out_mm) const;
+    [[nodiscard]] base::Result<simulation::CollisionVolume> collisions(std::span<const simulation::ToolMove> moves,
+                                                                       double resolution_mm, double stick_out_mm) const;
     /// The shortest stick-out, in steps of `step_mm` below the tool's own, with which the path stays free; empty where it is
     /// not free with the tool's own.
     [[nodiscard]] std::optional<double> shortestStickOut(const std::vector<toolpath::CutterLocation>& poses,
