@@ -28,6 +28,7 @@ public:
             ::dup2(out[1], STDOUT_FILENO);
             for (const int end : {in[0], in[1], out[0], out[1]}) ::close(end);
             std::vector<char*> words;
+            words.reserve(arguments.size() + 1);
             for (std::string& word : arguments) words.push_back(word.data());
             words.push_back(nullptr);
             ::execv(words.front(), words.data());
