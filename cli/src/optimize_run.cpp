@@ -223,11 +223,11 @@ base::Result<void> optimizePaper(const Run& run) {
     return judge(done, run.part);
 }
 
-finishing::TrueProblem trueProblem(const Run& run) {
+finishing::TrueProblem trueProblem(const Run& run, const LoadedSetting& setting) {
     const auto& job = run.done.job;
     finishing::TrueProblem out;
     out.tools = run.tools;
-    out.setting = run.setting->setting;
+    out.setting = setting.setting;
     out.tool_length_fixed = job.machine.tool_length_mm.has_value();
     out.options = job.options();
     out.tolerance_mm = job.part.tolerance_mm;
@@ -241,9 +241,10 @@ finishing::TrueProblem trueProblem(const Run& run) {
     return out;
 }
 
-base::Result<void> optimizeTrue(const Run& run) {
+/// The job's check holds that true mode names a machine.
+base::Result<void> optimizeTrue(const Run& run, const LoadedSetting& setting) {
     Optimized& done = run.done;
-    const auto problem = trueProblem(run);
+    const auto problem = trueProblem(run, setting);
     run.watch.begin(static_cast<std::uint64_t>(done.job.search.evaluations), "searching");
     auto found = finishing::searchTrue(run.part, problem, run.searchOptions(), run.watch);
     run.watch.end();
@@ -306,7 +307,7 @@ base::Result<Optimized> runOptimization(const OptimizeFlags& flags) {
     Watch watch;
     const finishing::Workpiece workpiece = part->workpiece();
     const Run run{flags, workpiece, *part->shape, *tools, *setting ? &**setting : nullptr, watch, done};
-    const auto outcome = paper ? optimizePaper(run) : optimizeTrue(run);
+    const auto outcome = paper ? optimizePaper(run) : optimizeTrue(run, **setting);
     if (!outcome) {
         std::filesystem::remove(flags.folder, failure);  // empty folders only
         return base::fail(outcome.error());

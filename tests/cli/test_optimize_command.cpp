@@ -87,6 +87,20 @@ TEST_F(Optimize, TrueModeKeepsTheToleranceByEvaluateAndBeatsConstantLead) {
     EXPECT_NE(front.find(",1\n"), std::string::npos) << front;
 }
 
+TEST_F(Optimize, TrueModeKeepsTheToleranceOnASaddle) {
+    write("hollow.toml", "schema = 1\nname = \"saddle\"\n[[face]]\nform = \"polynomial\"\noutward = \"du x dv\"\n"
+                         "x_mm = { \"u\" = 40.0 }\ny_mm = { \"v\" = 30.0 }\n"
+                         "z_mm = { \"u^2\" = 5.0, \"u\" = -5.0, \"v^2\" = -3.0, \"v\" = 3.0 }\n");
+    const auto found = run({"optimize", write("job.toml", trueJob("")), "-o", path("out"), "--json"});
+    ASSERT_EQ(found.exit_code, 0) << found.errors;
+    const auto judged = run({"evaluate", path("out/best.apt"), "--nominal", path("hollow.toml"), "--grid-mm", "0.13",
+                             "--tolerance-mm", "0.01", "--json"});
+    const auto evaluated = nlohmann::json::parse(judged.output);
+    EXPECT_LE(evaluated.at("overcut_max_mm").get<double>(), 0.01);
+    EXPECT_LE(evaluated.at("undercut_max_mm").get<double>(), 0.01);
+    EXPECT_NEAR(evaluated.at("reached_percent").get<double>(), 100.0, 1e-9);
+}
+
 TEST_F(Optimize, AnyNumberOfThreadsGivesTheSameBytes) {
     write("hollow.toml", hollow);
     const std::string job = write("job.toml", trueJob(""));

@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     const auto problem = problemOf(job);
     const auto objective = finishing::paperObjective(part, problem).value();
     const auto evaluate = finishing::paperEvaluator(part, problem, objective);
-    const auto binary = finishing::paperEncoding(problem).value();
+    const auto binary = finishing::paperEncoding(problem, optimizer::Coding::Binary).value();
     const auto gray = optimizer::Encoding::create(binary.genes(), optimizer::Coding::Gray).value();
 
     const auto begin = std::chrono::steady_clock::now();

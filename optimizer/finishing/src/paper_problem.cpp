@@ -32,7 +32,7 @@ bool standsUpright(const PaperProblem& problem, const PaperCandidate& candidate)
 
 }  // namespace
 
-base::Result<optimizer::Encoding> paperEncoding(const PaperProblem& problem) {
+base::Result<optimizer::Encoding> paperEncoding(const PaperProblem& problem, optimizer::Coding coding) {
     const auto tools = static_cast<std::int64_t>(problem.tools.size());
     return optimizer::Encoding::create(
         {{.name = "tool", .bits = 4, .lower = 0.0, .upper = static_cast<double>(tools - 1), .choices = tools},
@@ -45,7 +45,8 @@ base::Result<optimizer::Encoding> paperEncoding(const PaperProblem& problem) {
          {.name = "chord_tolerance_mm",
           .bits = 10,
           .lower = problem.chord_tolerance_mm[0],
-          .upper = problem.chord_tolerance_mm[1]}});
+          .upper = problem.chord_tolerance_mm[1]}},
+        coding);
 }
 
 PaperCandidate candidateOf(const PaperProblem& problem, const Values& values) {

@@ -53,16 +53,6 @@ struct Search {
     }
 };
 
-/// Within what is allowed on the level grid; or within the whole tolerance there, and by the proof grid as well.
-base::Result<bool> inOrder(const Search& search, const ProvedPath& path) {
-    if (path.levelled.excess <= 1.0) return true;
-    const double deviation_mm = frontPointOf(path, search.problem, true, 0.0).deviation_mm;
-    if (!path.levelled.whole || deviation_mm > search.problem.tolerance_mm) return false;
-    const auto proved = prove(search.part, search.problem, path, false);
-    if (!proved) return base::fail(proved.error());
-    return proved->proved;
-}
-
 /// From a candidate to fewer passes while the tolerance holds, or to more until it does.
 base::Result<std::optional<ProvedPath>> toFewest(const Search& search, const Values& values,
                                                  std::vector<FrontPoint>& front, base::Progress& progress) {
@@ -76,9 +66,7 @@ base::Result<std::optional<ProvedPath>> toFewest(const Search& search, const Val
         progress.advance();
         if (!path) return base::fail(path.error());
         front.push_back(frontPointOf(*path, search.problem, true, 0.0));
-        const auto holds = inOrder(search, *path);
-        if (!holds) return base::fail(holds.error());
-        if (*holds) {
+        if (path->levelled.excess <= 1.0) {
             const bool was_coming_down = !best || path->time.total_s < best->time.total_s;
             if (was_coming_down) best = *std::move(path);
             if (count > start) break;

@@ -39,7 +39,9 @@ struct PaperCandidate {
 };
 
 /// 46 bits as in the paper: tool 4, step-over 12, lead 10, tilt 10, discretisation 10. Errors: those of `Encoding::create`.
-[[nodiscard]] base::Result<optimizer::Encoding> paperEncoding(const PaperProblem& problem);
+/// The paper has plain binary; the Gray code finds more (README).
+[[nodiscard]] base::Result<optimizer::Encoding> paperEncoding(const PaperProblem& problem,
+                                                              optimizer::Coding coding = optimizer::Coding::Gray);
 [[nodiscard]] PaperCandidate candidateOf(const PaperProblem& problem, const optimizer::Values& values);
 [[nodiscard]] PlanOptions optionsOf(const PaperProblem& problem, const PaperCandidate& candidate);
 
