@@ -101,8 +101,9 @@ struct MotionPlanner::State {
     }
 
     Plan advance();
-    Plan fallBack(std::size_t horizon_vertex);
-    Plan stopAtEveryPoint(std::size_t horizon_vertex);
+    Plan fallBack();
+    Plan toRestBefore(std::size_t horizon_vertex);
+    [[nodiscard]] std::vector<MotionPiece> planAlone(std::size_t edge) const;
     void commit(std::size_t spans, Plan& plan);
     void restAt(double s);
 };
@@ -174,8 +175,8 @@ Plan MotionPlanner::State::advance() {
         }
     }
     WindowPlan window = planWindow(run.path, last, start, limits, options.limit_use, tool);
-    if (!window.kept_limits) return fallBack(last);
-    if (window.slowed) ++summary.fallbacks;
+    if (!window.usable && start) return fallBack();
+    if (!window.usable) return toRestBefore(last);
     summary.largest_tip_mm = std::max(summary.largest_tip_mm, window.tip_mm);
     summary.largest_axis_rad = std::max(summary.largest_axis_rad, window.axis_rad);
     if (whole) {
@@ -214,10 +215,9 @@ void MotionPlanner::State::commit(std::size_t spans, Plan& plan) {
 
 /// The plan before is still good: half of what is left of it is run, and from there the window is tried again; where too
 /// little is left, all of it, and the next motion starts from its rest.
-Plan MotionPlanner::State::fallBack(std::size_t horizon_vertex) {
+Plan MotionPlanner::State::fallBack() {
     Plan out;
     ++summary.fallbacks;
-    if (last_plan.pieces.empty()) return stopAtEveryPoint(horizon_vertex);
     const std::size_t left = last_plan.first_piece.size() - done_spans;
     if (left >= tail_spans) {
         commit(left / 2, out);
@@ -229,21 +229,35 @@ Plan MotionPlanner::State::fallBack(std::size_t horizon_vertex) {
     return out;
 }
 
-/// The last resort, from rest: a closed form for every edge.
-Plan MotionPlanner::State::stopAtEveryPoint(std::size_t horizon_vertex) {
+/// From rest, with a place in the window that has no plan: half the window, and half of that, until what is left ends before
+/// it, or is a single edge, which has a closed form. That is run to its rest, so that the place costs stops around itself only.
+Plan MotionPlanner::State::toRestBefore(std::size_t horizon_vertex) {
     Plan out;
+    ++summary.fallbacks;
     const Polyline& path = runs.front().path;
-    for (std::size_t i = 0; i < horizon_vertex; ++i) {
-        const PathEdge& edge = path.edges()[i];
-        const Polyline one = path.edgeAlone(i);
-        for (MotionPiece piece : planStraight(one, limits)) {
-            piece.path_mm += path.vertices()[i].s;
-            piece.block = edge.block;
-            out.committed.push_back(piece);
-        }
+    std::size_t last = horizon_vertex;
+    while (out.committed.empty() && last > 1) {
+        last /= 2;
+        WindowPlan window = planWindow(path, last, start, limits, options.limit_use, tool);
+        if (!window.usable) continue;
+        summary.largest_tip_mm = std::max(summary.largest_tip_mm, window.tip_mm);
+        summary.largest_axis_rad = std::max(summary.largest_axis_rad, window.axis_rad);
+        out.committed = std::move(window.pieces);
     }
-    restAt(path.vertices()[horizon_vertex].s);
+    if (out.committed.empty()) out.committed = planAlone(0);
+    restAt(path.vertices()[last].s);
     return out;
+}
+
+/// The closed form of one edge, from rest to rest.
+std::vector<MotionPiece> MotionPlanner::State::planAlone(std::size_t edge) const {
+    const Polyline& path = runs.front().path;
+    std::vector<MotionPiece> pieces = planStraight(path.edgeAlone(edge), limits);
+    for (MotionPiece& piece : pieces) {
+        piece.path_mm += path.vertices()[edge].s;
+        piece.block = path.edges()[edge].block;
+    }
+    return pieces;
 }
 
 void MotionPlanner::State::restAt(double s) {

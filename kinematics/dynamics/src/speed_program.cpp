@@ -122,7 +122,7 @@ public:
     }
 
 private:
-    /// From the guess, or from rest where there is none; from rest it can be slowed down until it keeps every limit.
+    /// From the guess, or from rest where there is none, slowed down until it keeps every limit.
     void start() {
         guess();
         all_ = rows_.linear();

@@ -61,4 +61,11 @@ std::vector<MotionPiece> planStraight(const Polyline& path, const AxisLimits& li
     return out;
 }
 
+double timeWithStops(const Polyline& path, std::size_t horizon, const AxisLimits& limits) {
+    double time = 0.0;
+    for (std::size_t edge = 0; edge < horizon; ++edge)
+        for (const MotionPiece& piece : planStraight(path.edgeAlone(edge), limits)) time += piece.law.duration_s;
+    return time;
+}
+
 }  // namespace cusp::dynamics

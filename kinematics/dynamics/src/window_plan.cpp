@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace cusp::dynamics {
 
@@ -173,24 +174,21 @@ private:
         return (1.0 - u) * before->second + u * after->second;
     }
 
-    /// From rest to rest any plan that leaves a limit keeps it when slowed down: acceleration falls with b, jerk with b^(3/2).
     void take(const SpeedSolution& solution, std::size_t first) {
-        double slower = 1.0;
-        out_.kept_limits = solution.use <= 1.0 + 0.9 * (1.0 - limit_use_) / limit_use_;
-        if (!out_.kept_limits && !start_ && std::isfinite(solution.use)) {
-            slower = 1.0 / (4.0 * solution.use);
-            out_.slowed = out_.kept_limits = true;
-        }
-        if (!out_.kept_limits) return;
+        if (!(solution.use <= 1.0 + 0.9 * (1.0 - limit_use_) / limit_use_)) return;
         out_.speed.assign(out_.pieces.size(), SpanSpeed{});
         for (std::size_t i = 0; i < solution.speed.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k) out_.speed[first + i][k] = slower * solution.speed[i][k];
+            for (std::size_t k = 0; k < 3; ++k) out_.speed[first + i][k] = solution.speed[i][k];
         const std::size_t last = out_.pieces.size() - 1;
         for (std::size_t i = first; i < last; ++i)
             out_.pieces[i].law = quadraticSpeedLaw(out_.speed[i], out_.pieces[i].curve.length);
         out_.pieces[last].law = restLaw(out_.speed[last - 1][2], out_.pieces[last].curve.length, false);
         if (!start_) out_.pieces[0].law = restLaw(out_.speed[1][0], out_.pieces[0].curve.length, true);
         out_.knots = spline_->knots();
+        // An optimisation that went astray may keep every limit by hardly moving.
+        const double time = std::accumulate(out_.pieces.begin(), out_.pieces.end(), 0.0,
+                                            [](double sum, const MotionPiece& p) { return sum + p.law.duration_s; });
+        out_.usable = time <= timeWithStops(path_, horizon_, limits_);
     }
 
     /// Constant jerk between rest and the squared speed b at the other end.

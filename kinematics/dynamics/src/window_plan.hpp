@@ -26,8 +26,7 @@ struct MotionStart {
 };
 
 struct WindowPlan {
-    bool kept_limits = false;
-    bool slowed = false;                   ///< the optimisation left a limit, and the speed was scaled down
+    bool usable = false;                   ///< keeps every limit, and is no slower than stopping at every vertex
     std::vector<MotionPiece> pieces;       ///< two for each span of the spline, one where it is at rest
     std::vector<SpanSpeed> speed;          ///< of each piece; of those at rest zero
     std::vector<double> knots;             ///< as PathSpline takes them
@@ -46,5 +45,8 @@ struct WindowPlan {
 /// The whole of a path from rest to rest that is one straight line in axis space under one feed: the closed form. Empty when
 /// it is not.
 [[nodiscard]] std::vector<MotionPiece> planStraight(const Polyline& path, const AxisLimits& limits);
+
+/// Time, in s, from the first vertex to the vertex `horizon` with a stop at each between.
+[[nodiscard]] double timeWithStops(const Polyline& path, std::size_t horizon, const AxisLimits& limits);
 
 }  // namespace cusp::dynamics

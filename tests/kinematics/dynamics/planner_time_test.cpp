@@ -85,5 +85,41 @@ TEST(PlannerTime, WithinATenthOfTheBoundWhereJerkIsPlentiful) {
     }
 }
 
+/// A flat path as roughing has it: long moves, and corners full of the shortest.
+std::vector<PathBlock> raggedPath(std::uint64_t seed, std::size_t count) {
+    base::Random random(seed);
+    std::vector<PathBlock> blocks;
+    geometry::Vector3 at(0.0, 0.0, 0.0);
+    double heading = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double length_mm = std::pow(10.0, random.uniform(-4.0, 1.3));
+        heading += random.uniform() < 0.3 ? random.uniform(-3.14, 3.14) : random.uniform(-0.3, 0.3);
+        const geometry::Vector3 next = at + length_mm * geometry::Vector3(std::cos(heading), std::sin(heading), 0.0);
+        blocks.push_back(line(at, next, 30.0));
+        blocks.back().tolerance_mm = 0.01;
+        at = next;
+    }
+    return blocks;
+}
+
+TEST(PlannerTime, ARaggedPathTakesNoLongerThanStoppingAtEveryBlock) {
+    const AxisLimits limits = cube(500.0, 3000.0, 30000.0);
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        SCOPED_TRACE(seed);
+        const auto blocks = raggedPath(seed, 200);
+        double stopping_s = 0.0;
+        for (const PathBlock& block : blocks) {
+            MotionPlanner alone(limits, {}, cubeTool());
+            stopping_s += durationOf(planAll(alone, {block}));
+        }
+        MotionPlanner planner(limits, {}, cubeTool());
+        const auto pieces = planAll(planner, blocks);
+        EXPECT_LE(durationOf(pieces), stopping_s);
+        const LimitUse use = limitUse(samples(pieces, 0.001), 0.001, limits);
+        EXPECT_LE(std::max({use.velocity, use.acceleration, use.jerk}), 1.0 + 1e-6);
+        EXPECT_NEAR((pieces.back().at(pieces.back().law.duration_s)[0]), blocks.back().points.back().axes[0], 1e-9);
+    }
+}
+
 }  // namespace
 }  // namespace cusp::dynamics::test

@@ -20,10 +20,10 @@ struct PlannerOptions {
 
 struct PlanSummary {
     std::size_t blocks = 0;
-    std::size_t stops = 0;          ///< times the machine comes to rest
-    std::size_t windows = 0;        ///< optimisations
-    std::size_t fallbacks = 0;      ///< that failed: the plan before was run to its stop, or a slower one taken
-    double largest_tip_mm = 0.0;    ///< by which smoothing takes the tip off the path
+    std::size_t stops = 0;        ///< times the machine comes to rest
+    std::size_t windows = 0;      ///< optimisations
+    std::size_t fallbacks = 0;    ///< that failed: the plan before was run towards its stop, or a shorter window taken
+    double largest_tip_mm = 0.0;  ///< by which smoothing takes the tip off the path
     double largest_axis_rad = 0.0;  ///< … and the tool axis
 };
 
