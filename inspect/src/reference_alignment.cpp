@@ -121,8 +121,8 @@ base::Result<std::vector<ReferencePoint>> readReferences(std::string_view text, 
             const auto value = parseNumber(fields[i], '.');
             sound = sound && value.has_value();
             if (!value)
-                problems.error("reference.number", fmt::format("{}: {} is no number", columns.at(i), quoted(fields[i])),
-                               where);
+                problems.error("reference.number",
+                               fmt::format("{}: {} is no number", columns.at(i), inQuotes(fields[i])), where);
             constexpr double largest_mm = 1e9;  // squares of more than this lose every digit of the others
             if (value && !(std::abs(*value) <= largest_mm)) {
                 sound = false;

@@ -289,7 +289,7 @@ void handleMovarc(ReaderContext& context, std::string_view word, std::string_vie
     }
     if (!understood || count != v.size()) {
         context.error("cl.arc",
-                      fmt::format("{}/{} is not understood; centre, axis, radius and ANGLE are", word, quoted(body)));
+                      fmt::format("{}/{} is not understood; centre, axis, radius and ANGLE are", word, inQuotes(body)));
         return;
     }
     std::optional<OpenArc> arc = beginArc(context, word, "MOVARC", v);
@@ -334,7 +334,7 @@ void handleTlon(ReaderContext& context, std::string_view word, std::string_view 
     if (!driven) {
         context.error("cl.unsupported-motion",
                       fmt::format("'{}{}' is not understood; {},GOFWD/(CIRCLE/centre,radius),ON,(LINE/…) is", word,
-                                  quoted(body), word));
+                                  inQuotes(body), word));
         return;
     }
     if (!sense || context.standing != Standing::AtTip || context.cycle_on) {

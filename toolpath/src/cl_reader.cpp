@@ -150,7 +150,7 @@ void ClReader::State::afterEnd(const StatementHead& head, std::string_view text)
     const StatementEntry* const entry = findStatement(head.word(), context.dialect->dialect);
     if (entry == nullptr || !head.isPlain()) {
         context.warning("cl.after-end",
-                        fmt::format("text behind the end of the program is not read: '{}'", quoted(text)));
+                        fmt::format("text behind the end of the program is not read: '{}'", inQuotes(text)));
         finish();
     } else if (entry->handler != handleEnd && entry->handler != handleMeaningless &&
                entry->handler != handleEndOfPath) {

@@ -114,7 +114,7 @@ void CycleParser::takeField() {
     } else if (const std::optional<FeedUnit> unit = feedUnit(context_, field)) {
         takeFeed(*unit);
     } else {
-        fail(fmt::format("'{}' is not understood", quoted(field.text)));
+        fail(fmt::format("'{}' is not understood", inQuotes(field.text)));
     }
 }
 
@@ -214,7 +214,7 @@ void handleCycle(ReaderContext& context, std::string_view word, std::string_view
         return;  // announces the cycle that follows
     }
     const std::optional<Kind> kind = fields.empty() ? std::nullopt : kindOf(fields[0]);
-    const std::string name = fields.empty() ? std::string(word) : fmt::format("{}/{}", word, quoted(fields[0].text));
+    const std::string name = fields.empty() ? std::string(word) : fmt::format("{}/{}", word, inQuotes(fields[0].text));
     if (!kind) {
         unsupportedMotion(context, name, body);
         return;
@@ -245,13 +245,14 @@ void handleCutcom(ReaderContext& context, std::string_view word, std::string_vie
             const double number = fields[1].number;
             if (!fields[1].is_number || number < 0.0 || number > most || number != std::floor(number)) {
                 context.error("cl.cutcom",
-                              fmt::format("{}: '{}' is not the number of an offset", word, quoted(fields[1].text)));
+                              fmt::format("{}: '{}' is not the number of an offset", word, inQuotes(fields[1].text)));
                 return;
             }
             command.offset_number = static_cast<std::int64_t>(number);
         }
     } else {
-        unsupportedMotion(context, fields.empty() ? std::string(word) : fmt::format("{}/{}", word, quoted(body)), body);
+        unsupportedMotion(context, fields.empty() ? std::string(word) : fmt::format("{}/{}", word, inQuotes(body)),
+                          body);
         return;
     }
     context.compensation = command.side;

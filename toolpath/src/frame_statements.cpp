@@ -104,7 +104,7 @@ void handleUnits(ReaderContext& context, std::string_view word, std::string_view
     const Fields fields(body);
     const std::optional<LengthUnit> unit = fields.size() == 1 ? lengthUnitFromWord(fields[0].text) : std::nullopt;
     if (!unit) {
-        context.error("cl.unit", fmt::format("{}/{} is not understood; MM or INCHES is", word, quoted(body)));
+        context.error("cl.unit", fmt::format("{}/{} is not understood; MM or INCHES is", word, inQuotes(body)));
         return;
     }
     if (context.unit_source == UnitSource::Unknown) {
@@ -116,7 +116,7 @@ void handleUnits(ReaderContext& context, std::string_view word, std::string_view
                         word, fields[0].text, unitName(context.mm_per_unit)));
     } else if (context.options.mm_per_unit && *context.options.mm_per_unit != mmPerUnitOf(*unit)) {
         context.warning("cl.unit-option", fmt::format("the file says {}/{}; the unit given for it is not used", word,
-                                                      quoted(fields[0].text)));
+                                                      inQuotes(fields[0].text)));
     }
 }
 
@@ -176,13 +176,13 @@ void handleShift(ReaderContext& context, std::string_view word, std::string_view
 void handleSet(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
     if (fields.size() != 2 || !fields[0].is("MODE") || !fields[1].is("ABSOL")) {
-        unsupportedMotion(context, fmt::format("{}/{}", word, quoted(body)), body);
+        unsupportedMotion(context, fmt::format("{}/{}", word, inQuotes(body)), body);
     }
 }
 
 void handleTrntyp(ReaderContext& context, std::string_view word, std::string_view body) {
     if (const Fields fields(body); fields.empty() || !fields[0].is("WORLD")) {
-        unsupportedMotion(context, fmt::format("{}/{}", word, quoted(body)), body);
+        unsupportedMotion(context, fmt::format("{}/{}", word, inQuotes(body)), body);
     }
 }
 

@@ -218,7 +218,7 @@ void handleTlaxis(ReaderContext& context, std::string_view word, std::string_vie
 void handleMultax(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
     if (fields.size() > 1 || (fields.size() == 1 && !fields[0].is("ON") && !fields[0].is("OFF"))) {
-        context.error("cl.syntax", fmt::format("{}/{} is not understood; ON, OFF or nothing is", word, quoted(body)));
+        context.error("cl.syntax", fmt::format("{}/{} is not understood; ON, OFF or nothing is", word, inQuotes(body)));
         return;
     }
     context.multax = fields.empty() || fields[0].is("ON");

@@ -56,7 +56,7 @@ void handleFedrat(ReaderContext& context, std::string_view word, std::string_vie
         } else if (const std::optional<FeedUnit> stated = field.is_number ? std::nullopt : feedUnit(context, field)) {
             unit = *stated;
         } else {
-            context.error("cl.feed", fmt::format("{}: '{}' is not understood", word, quoted(field.text)));
+            context.error("cl.feed", fmt::format("{}: '{}' is not understood", word, inQuotes(field.text)));
             return;
         }
     }
@@ -85,7 +85,7 @@ void handleSpindl(ReaderContext& context, std::string_view word, std::string_vie
     for (const Field& field : fields) {
         if (gear != nullptr && gear == &field - 1) {
             context.warning("cl.spindle",
-                            fmt::format("{}: the gear range {} is left to the machine", word, quoted(field.text)));
+                            fmt::format("{}: the gear range {} is left to the machine", word, inQuotes(field.text)));
         } else if (field.is_number && !speed) {
             speed = field.number;
         } else if (field.is("RPM") || field.is("ON")) {
@@ -99,12 +99,12 @@ void handleSpindl(ReaderContext& context, std::string_view word, std::string_vie
         } else if (field.is("RANGE") && gear == nullptr && &field + 1 != fields.end()) {
             gear = &field;
         } else {
-            context.error("cl.spindle", fmt::format("{}: '{}' is not understood", word, quoted(field.text)));
+            context.error("cl.spindle", fmt::format("{}: '{}' is not understood", word, inQuotes(field.text)));
             return;
         }
     }
     if (fields.empty() || (speed && !(*speed >= 0.0)) || (off && speed)) {
-        context.error("cl.spindle", fmt::format("{}/{} is not understood", word, quoted(body)));
+        context.error("cl.spindle", fmt::format("{}/{} is not understood", word, inQuotes(body)));
         return;
     }
     context.callOwedTool();
@@ -137,7 +137,7 @@ void handleCoolnt(ReaderContext& context, std::string_view word, std::string_vie
     }
     if (!kind) {
         const std::string message =
-            fmt::format("{}/{} is not understood; the coolant stays as it is", word, quoted(body));
+            fmt::format("{}/{} is not understood; the coolant stays as it is", word, inQuotes(body));
         if (context.options.strict) {
             context.error("cl.coolant", message);
         } else {
@@ -159,7 +159,7 @@ void handleDelay(ReaderContext& context, std::string_view word, std::string_view
     if (fields.empty() || fields.size() > 2 || (fields.size() == 2 && !revolutions && !seconds_word) ||
         !fields[number_at].is_number || !(fields[number_at].number >= 0.0)) {
         context.error("cl.delay", fmt::format("{}/{} is not understood; seconds, or revolutions with REV, are", word,
-                                              quoted(body)));
+                                              inQuotes(body)));
         return;
     }
     double seconds = fields[number_at].number;
@@ -176,7 +176,7 @@ void handleDelay(ReaderContext& context, std::string_view word, std::string_view
 void handleTolerance(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
     if (fields.size() != 1 || !fields[0].is_number || !(fields[0].number >= 0.0)) {
-        const std::string message = fmt::format("{}/{} is not understood and is passed over", word, quoted(body));
+        const std::string message = fmt::format("{}/{} is not understood and is passed over", word, inQuotes(body));
         if (context.options.strict) {
             context.error("cl.tolerance", message);
         } else {

@@ -39,7 +39,7 @@ void ReaderContext::settleTool() {
     }
 }
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
     constexpr std::size_t most = 60;
     text = trimmed(text);
     if (text.size() <= most) {
@@ -60,7 +60,7 @@ bool takeNumbers(ReaderContext& context, std::string_view word, const Fields& fi
             return false;
         }
         if (!fields[i].is_number) {
-            context.error("cl.number", fmt::format("{}: '{}' is not a number", word, quoted(fields[i].text)));
+            context.error("cl.number", fmt::format("{}: '{}' is not a number", word, inQuotes(fields[i].text)));
             return false;
         }
         out[i - first] = fields[i].number;

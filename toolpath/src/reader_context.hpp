@@ -122,7 +122,7 @@ struct ReaderContext {
 };
 
 /// Text of the file as a message shows it: not more than 60 bytes of it.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string inQuotes(std::string_view text);
 
 /// Copies the numbers `first`… of the fields; reports `WORD: 'x' is not a number` and answers false otherwise.
 [[nodiscard]] bool takeNumbers(ReaderContext& context, std::string_view word, const Fields& fields, std::size_t first,

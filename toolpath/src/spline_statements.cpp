@@ -20,7 +20,7 @@ std::optional<std::vector<double>> numbersOf(ReaderContext& context, std::string
         const char* const last = text.data() + text.size();
         double number = 0.0;
         if (text.empty() || scanNumber(text.data(), last, number) != last) {
-            context.error("cl.number", fmt::format("{}: '{}' is not a number", word, quoted(text)));
+            context.error("cl.number", fmt::format("{}: '{}' is not a number", word, inQuotes(text)));
             return std::nullopt;
         }
         numbers.push_back(number);

@@ -155,7 +155,7 @@ void unsupportedMotion(ReaderContext& context, std::string_view word, std::strin
 void unknownStatement(ReaderContext& context, const StatementHead& head, std::string_view text) {
     if (const std::string_view word = movingWordIn(text); !word.empty()) {
         context.error("cl.unsupported-motion",
-                      fmt::format("'{}' is not understood, and {} in it may move the tool", quoted(text), word));
+                      fmt::format("'{}' is not understood, and {} in it may move the tool", inQuotes(text), word));
         return;
     }
     const bool statement = looksLikeStatement(head, text);
@@ -163,7 +163,7 @@ void unknownStatement(ReaderContext& context, const StatementHead& head, std::st
         if (!context.preamble_noted) {
             context.preamble_noted = true;
             context.report.note("cl.preamble",
-                                fmt::format("text before the first statement is passed over: '{}'", quoted(text)),
+                                fmt::format("text before the first statement is passed over: '{}'", inQuotes(text)),
                                 context.here());
         }
         return;
@@ -171,7 +171,7 @@ void unknownStatement(ReaderContext& context, const StatementHead& head, std::st
     if (!statement && context.path_ended) {
         return;  // NX: "Tool Path Listing has 388 lines."
     }
-    const std::string message = fmt::format("'{}' is not known to the reader and is passed over", quoted(text));
+    const std::string message = fmt::format("'{}' is not known to the reader and is passed over", inQuotes(text));
     if (context.options.strict) {
         context.error("cl.unknown-statement", message);
     } else {

@@ -17,7 +17,7 @@ void refuseTurning(ReaderContext& context, std::string_view statement) {
 
 void takeCutter(ReaderContext& context, std::string_view word, std::string_view body, const geometry::Cutter& cutter) {
     if (!isPossible(cutter)) {
-        context.error("cl.cutter", fmt::format("{}/{} is not a possible cutter", word, quoted(body)));
+        context.error("cl.cutter", fmt::format("{}/{} is not a possible cutter", word, inQuotes(body)));
         return;
     }
     context.tool.cutter = cutter;
@@ -112,7 +112,7 @@ void handleTldata(ReaderContext& context, std::string_view word, std::string_vie
     if (!cutter) {
         context.warning("cl.tool-shape", fmt::format("{}/{}: only MILL with 5 or 7 values and DRILL with 5 are "
                                                      "understood; the tool is called without its shape",
-                                                     word, quoted(body)));
+                                                     word, inQuotes(body)));
         context.tool.cutter.reset();
         return;
     }
@@ -141,12 +141,12 @@ void handleToolPath(ReaderContext& context, std::string_view word, std::string_v
 void handleToolno(ReaderContext& context, std::string_view word, std::string_view body) {
     const Fields fields(body);
     if (fields.contains("TURN")) {
-        refuseTurning(context, fmt::format("TOOLNO/{},TURN", quoted(fields[0].text)));
+        refuseTurning(context, fmt::format("TOOLNO/{},TURN", inQuotes(fields[0].text)));
         return;
     }
     const std::optional<std::int64_t> number = fields.empty() ? std::nullopt : toolNumber(fields[0]);
     if (!number) {
-        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected first", word, quoted(body)));
+        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected first", word, inQuotes(body)));
         return;
     }
     context.tool.number = number;
@@ -164,12 +164,12 @@ void handleLoad(ReaderContext& context, std::string_view word, std::string_view 
     const bool load_tool = word == "LOAD";
     const std::size_t at = load_tool ? 1 : 0;
     if (load_tool && (fields.empty() || !fields[0].is("TOOL"))) {
-        context.error("cl.tool", fmt::format("{}/{} is not understood; LOAD/TOOL,number is", word, quoted(body)));
+        context.error("cl.tool", fmt::format("{}/{} is not understood; LOAD/TOOL,number is", word, inQuotes(body)));
         return;
     }
     std::optional<std::int64_t> number = fields.size() > at ? toolNumber(fields[at]) : std::nullopt;
     if (!number) {
-        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected", word, quoted(body)));
+        context.error("cl.tool", fmt::format("{}/{}: the tool's number is expected", word, inQuotes(body)));
         return;
     }
     if (context.dialect->tool_name_rule == ToolNameRule::OperationHeader) {

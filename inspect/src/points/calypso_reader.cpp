@@ -73,7 +73,7 @@ public:
         feature_.actual.at(*axis) = decimal_ ? parseNumber(text, *decimal_)
                                              : parseNumber(text, text.find(',') == std::string_view::npos ? '.' : ',');
         if (!feature_.actual.at(*axis))
-            out_.error("points.number", fmt::format("actual: {} is no number", quoted(text)), number);
+            out_.error("points.number", fmt::format("actual: {} is no number", inQuotes(text)), number);
     }
 
     void finish() {
@@ -90,7 +90,7 @@ private:
             out_.add(feature_.line, {*v[0], *v[1], *v[2]});
         else if (given > 0 && !out_.hasErrors())
             out_.error("points.columns",
-                       fmt::format("feature {} has {} of its three coordinates", quoted(feature_.name), given),
+                       fmt::format("feature {} has {} of its three coordinates", inQuotes(feature_.name), given),
                        feature_.line);
         feature_ = {};
     }

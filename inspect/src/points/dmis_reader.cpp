@@ -101,7 +101,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const auto value = base::parseDouble(fields_[first + 1 + i]);
             if (!value)
-                return out_.error("points.number", fmt::format("{} is no number", quoted(fields_[first + 1 + i])),
+                return out_.error("points.number", fmt::format("{} is no number", inQuotes(fields_[first + 1 + i])),
                                   line);
             values.at(i) = *value;
         }

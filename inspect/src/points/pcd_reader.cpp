@@ -66,7 +66,7 @@ bool layOut(Header& header, PointCollector& out) {
         const auto count = base::parseInteger(header.counts[i]);
         if (!type || !count || *count < 1 || *count > 100000) {
             out.error("points.header", fmt::format("field {} has a type, size or count that PCD does not know",
-                                                   quoted(header.names[i])));
+                                                   inQuotes(header.names[i])));
             return false;
         }
         header.roles.take(lowered(header.names[i]), static_cast<int>(i));
@@ -129,7 +129,7 @@ void readAscii(ByteSource& source, const Header& header, PointCollector& out) {
                 fields[header.fields[static_cast<std::size_t>(header.roles.index.at(i))].first];
             const auto value = base::parseDouble(text);
             if (!value && !isNotANumber(text))
-                out.error("points.number", fmt::format("{} is no number", quoted(text)), source.lineNumber());
+                out.error("points.number", fmt::format("{} is no number", inQuotes(text)), source.lineNumber());
             values.at(i) = value.value_or(std::nan(""));
         }
         addPoint(values, header.roles, source.lineNumber(), out);
@@ -195,7 +195,7 @@ void readPcd(ByteSource& source, PointCollector& out) {
     if (header->data == "binary") return readBinary(source, *header, out);
     if (header->data == "binary_compressed") return readCompressed(source, *header, out);
     out.error("points.format",
-              fmt::format("DATA {} is not known; ascii, binary and binary_compressed are", quoted(header->data)),
+              fmt::format("DATA {} is not known; ascii, binary and binary_compressed are", inQuotes(header->data)),
               source.lineNumber());
 }
 

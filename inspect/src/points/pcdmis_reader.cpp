@@ -42,7 +42,7 @@ private:
         const std::string word = lowered(text.substr(0, text.find_first_of(" ,\t$")));
         const auto length = unitLength(word);
         if (!length)
-            return out_.error("points.unit", fmt::format("UNITS={}: this unit is not known", quoted(word)), number);
+            return out_.error("points.unit", fmt::format("UNITS={}: this unit is not known", inQuotes(word)), number);
         if (file_unit_mm_ && *file_unit_mm_ != *length)
             return out_.error("points.unit", "dimensions of one file have different units", number);
         if (!file_unit_mm_) out_.unit(*length);
@@ -67,7 +67,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const auto value = base::parseDouble(fields[i]);
             if (!value)
-                return out_.error("points.number", fmt::format("ACTL: {} is no number", quoted(fields[i])), number);
+                return out_.error("points.number", fmt::format("ACTL: {} is no number", inQuotes(fields[i])), number);
             values.at(i) = *value;
         }
         out_.add(number, {values[0], values[1], values[2]});

@@ -57,7 +57,7 @@ public:
             else if (words_[0] == "property" && words_.size() > 2)
                 property();
             else
-                out_.error("points.header", fmt::format("{} is no line of a PLY header", quoted(line)),
+                out_.error("points.header", fmt::format("{} is no line of a PLY header", inQuotes(line)),
                            source_.lineNumber());
             if (out_.hasErrors()) return std::nullopt;
         }
@@ -69,10 +69,12 @@ private:
     void element() {
         const auto count = base::parseInteger(words_[2]);
         if (!count || *count < 0)
-            return out_.error("points.header", fmt::format("{} is no count", quoted(words_[2])), source_.lineNumber());
+            return out_.error("points.header", fmt::format("{} is no count", inQuotes(words_[2])),
+                              source_.lineNumber());
         in_vertices_ = words_[1] == "vertex";
         if (!in_vertices_ && !header_.has_vertices && *count > 0)
-            return out_.error("points.format", fmt::format("element {} stands before the vertices", quoted(words_[1])),
+            return out_.error("points.format",
+                              fmt::format("element {} stands before the vertices", inQuotes(words_[1])),
                               source_.lineNumber());
         if (!in_vertices_) return;
         header_.has_vertices = true;
@@ -84,7 +86,7 @@ private:
         const auto type = typeOf(words_[1]);
         if (!type)
             return out_.error("points.format",
-                              fmt::format("a vertex property of type {} is not read", quoted(words_[1])),
+                              fmt::format("a vertex property of type {} is not read", inQuotes(words_[1])),
                               source_.lineNumber());
         header_.roles.take(lowered(words_[2]), static_cast<int>(header_.properties.size()));
         header_.properties.push_back({*type, header_.record_bytes});
@@ -134,7 +136,7 @@ void readAscii(ByteSource& source, const Header& header, PointCollector& out) {
             const std::string_view text = fields[static_cast<std::size_t>(header.roles.index.at(i))];
             const auto value = base::parseDouble(text);
             if (!value && !isNotANumber(text))
-                out.error("points.number", fmt::format("{} is no number", quoted(text)), source.lineNumber());
+                out.error("points.number", fmt::format("{} is no number", inQuotes(text)), source.lineNumber());
             values.at(i) = value.value_or(std::nan(""));
         }
         addPoint(values, header.roles, source.lineNumber(), out);
@@ -166,7 +168,7 @@ void readPly(ByteSource& source, PointCollector& out) {
     if (header->encoding == "ascii") return readAscii(source, *header, out);
     if (header->encoding == "binary_little_endian") return readBinary(source, *header, false, out);
     if (header->encoding == "binary_big_endian") return readBinary(source, *header, true, out);
-    out.error("points.header", fmt::format("the PLY encoding {} is not known", quoted(header->encoding)));
+    out.error("points.header", fmt::format("the PLY encoding {} is not known", inQuotes(header->encoding)));
 }
 
 }  // namespace cusp::inspect

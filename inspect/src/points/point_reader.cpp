@@ -65,7 +65,7 @@ base::Result<MeasuredPoints> readMeasuredPoints(std::istream& in, const std::str
     else if (format == "qif")
         readQifPoints(source, out);
     else
-        out.error("points.format", fmt::format("the format {} holds no points that are read here", quoted(format)));
+        out.error("points.format", fmt::format("the format {} holds no points that are read here", inQuotes(format)));
     return out.finish();
 }
 

@@ -103,7 +103,7 @@ std::optional<double> unitLength(std::string_view word) {
     return std::nullopt;
 }
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     std::string out = "'";
     for (const char c : text.substr(0, longest)) out += static_cast<unsigned char>(c) < 0x20U || c == 0x7f ? '?' : c;

@@ -29,6 +29,6 @@ void splitFields(std::string_view line, char separator, std::vector<std::string_
 [[nodiscard]] std::optional<double> unitLength(std::string_view word);
 
 /// For messages: at most 40 characters, control characters replaced.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string inQuotes(std::string_view text);
 
 }  // namespace cusp::inspect

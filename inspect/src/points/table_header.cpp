@@ -67,8 +67,8 @@ std::optional<std::size_t> only(const std::vector<Role>& roles, Role role, const
     const auto at = static_cast<std::size_t>(first - roles.begin());
     if (second != roles.end())
         out.error("points.header",
-                  fmt::format("columns {} and {} mean the same; say with --columns which one counts", quoted(names[at]),
-                              quoted(names[static_cast<std::size_t>(second - roles.begin())])),
+                  fmt::format("columns {} and {} mean the same; say with --columns which one counts",
+                              inQuotes(names[at]), inQuotes(names[static_cast<std::size_t>(second - roles.begin())])),
                   line);
     return at;
 }
@@ -81,7 +81,7 @@ void takeUnit(const std::vector<ColumnName>& columns, const std::array<std::size
         if (unit.empty()) continue;
         const auto length = unitLength(unit);
         if (!length)
-            out.error("points.unit", fmt::format("the unit {} in the header is not known", quoted(unit)), line);
+            out.error("points.unit", fmt::format("the unit {} in the header is not known", inQuotes(unit)), line);
         else if (layout.mm_per_unit && *layout.mm_per_unit != *length)
             out.error("points.unit", "the coordinates in the header have different units", line);
         else

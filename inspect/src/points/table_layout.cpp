@@ -143,7 +143,7 @@ bool columnsFromOption(const std::string& text, std::uint64_t line, TableLayout&
         static const std::vector<std::string_view> known{"x", "y", "z", "i", "j", "k", "section", "weight", "id", "-"};
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         out.error("points.columns",
-                  fmt::format("--columns: {} is none of x, y, z, i, j, k, section, weight, id, -", quoted(name)));
+                  fmt::format("--columns: {} is none of x, y, z, i, j, k, section, weight, id, -", inQuotes(name)));
         return false;
     }
     std::replace(names.begin(), names.end(), std::string_view("id"), std::string_view());

@@ -106,7 +106,7 @@ private:
                 out_.error("points.number",
                            isNotANumber(field)
                                ? fmt::format("column {} has no value ({})", columns[i] + 1, field)
-                               : fmt::format("column {}: {} is no number", columns[i] + 1, quoted(field)),
+                               : fmt::format("column {}: {} is no number", columns[i] + 1, inQuotes(field)),
                            number);
                 return false;
             }
@@ -120,7 +120,7 @@ private:
         if (parsed && *parsed >= 0.0 && std::isfinite(*parsed)) return parsed;
         out_.error("points.number",
                    fmt::format("column {}: {} is no weight; a weight is a number, 0 or more", column + 1,
-                               quoted(fields_[column])),
+                               inQuotes(fields_[column])),
                    number);
         return std::nullopt;
     }
