@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # A thin wrapper: each target is a few lines one can as well type. The presets are in CMakePresets.json.
 .DEFAULT_GOAL := help
-.PHONY: help deps build demo test test-parsers test-threads test-fuzz bench fuzz format lint docs clean
+.PHONY: help deps build demo test test-sanitizers test-threads bench fuzz format lint docs clean
 SHELL := /bin/bash
 
 JOBS := $(shell nproc)
+# What the configuring step of `make build` and `make test` is given besides, e.g. -DCUSP_PRECOMPILE=ON.
+CMAKE_ARGS ?=
 # Rooms whose tests also run under the sanitizers in `make test`: those that read what strangers wrote.
 PARSER_ROOMS := base toolpath kinematics post
 # Rooms whose threads the thread sanitizer watches: those without TBB, of which it reports races that are none.
@@ -22,7 +24,7 @@ deps: ## Install the Debian packages that are absent (root, or sudo without a pa
 	scripts/deps.sh build test
 
 build: ## Build everything (release)
-	cmake --preset release
+	cmake --preset release $(CMAKE_ARGS)
 	cmake --build --preset release -j$(JOBS)
 
 demo: ## Install what is absent, build, and turn CL files (CL=…) into proven 840D programs in out/demo
@@ -31,29 +33,21 @@ demo: ## Install what is absent, build, and turn CL files (CL=…) into proven 8
 	cmake --build --preset release --target cusp_cli -j$(JOBS)
 	scripts/demo.sh build/release/bin/cusp out/demo $(CL)
 
-test: ## Install what is absent, then all tests: readers and threads under sanitizers, fuzz smoke, the whole suite last
+test: ## Install what is absent, then all tests: readers and fuzzers under sanitizers, the whole suite last
 	$(MAKE) --no-print-directory deps
-	$(MAKE) --no-print-directory test-parsers
-	$(MAKE) --no-print-directory test-fuzz
+	$(MAKE) --no-print-directory test-sanitizers
 	$(MAKE) --no-print-directory build
 	ctest --preset release -j$(JOBS)
 
-test-parsers: ## The tests of the parsers under the address and undefined-behaviour sanitizers
-	cmake --preset asan-ubsan
-	cmake --build --preset asan-ubsan --target $(PARSER_ROOMS:%=tests_%) -j$(JOBS)
-	ctest --preset asan-ubsan -L '^($(subst $(eval ) ,|,$(PARSER_ROOMS)))$$' -j$(JOBS)
+test-sanitizers: ## The readers' tests and a short run of every fuzzer, address and undefined-behaviour sanitizers on (clang 19)
+	cmake --preset fuzz $(CMAKE_ARGS)
+	cmake --build --preset fuzz --target fuzzers $(PARSER_ROOMS:%=tests_%) -j$(JOBS)
+	ctest --test-dir build/fuzz -L '^(fuzz|$(subst $(eval ) ,|,$(PARSER_ROOMS)))$$' --output-on-failure -j$(JOBS)
 
 test-threads: ## The tests of what runs in threads of its own under the thread sanitizer
 	cmake --preset tsan
 	cmake --build --preset tsan --target $(THREAD_ROOMS:%=tests_%) -j$(JOBS)
 	ctest --preset tsan -L '^($(subst $(eval ) ,|,$(THREAD_ROOMS)))$$' -j$(JOBS)
-
-test-fuzz: ## A short run of every fuzzer, from fixed seeds
-	@if command -v clang++-19 >/dev/null; then set -ex; \
-	  cmake --preset fuzz; \
-	  cmake --build --preset fuzz -j$(JOBS); \
-	  ctest --preset fuzz -j$(JOBS); \
-	else echo "skipped: clang++-19 is not installed (make deps)"; fi
 
 bench: ## Build and run the benchmarks
 	scripts/deps.sh build bench
