@@ -39,7 +39,7 @@ struct PaperCandidate {
 };
 
 /// 46 bits as in the paper: tool 4, step-over 12, lead 10, tilt 10, discretisation 10. Errors: those of `Encoding::create`.
-/// The paper has plain binary; the Gray code finds more (README).
+/// The paper has plain binary; in the Gray code neighbouring values differ by one bit.
 [[nodiscard]] base::Result<optimizer::Encoding> paperEncoding(const PaperProblem& problem,
                                                               optimizer::Coding coding = optimizer::Coding::Gray);
 [[nodiscard]] PaperCandidate candidateOf(const PaperProblem& problem, const optimizer::Values& values);
