@@ -27,7 +27,7 @@ build: ## Build everything (release)
 	cmake --preset release $(CMAKE_ARGS)
 	cmake --build --preset release -j$(JOBS)
 
-demo: ## Install what is absent, build, and turn CL files (CL=…) into proven 840D programs in out/demo
+demo: ## Install what is absent, build, turn CL files (CL=…) into proven 840D programs, and close the loop once: out/demo/index.html
 	scripts/deps.sh build
 	cmake --preset release
 	cmake --build --preset release --target cusp_cli -j$(JOBS)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The cusp authors
 # SPDX-License-Identifier: Apache-2.0
-# The loop as far as it is closed today: a five-axis CL file becomes an 840D program, and an independent reader proves it.
+# A five-axis CL file becomes an 840D program, and an independent reader proves it.
 #
 #   scripts/demo.sh CUSP OUTPUT-FOLDER [CL-FILE…]
 set -euo pipefail

@@ -18,12 +18,16 @@ using Action = std::function<ExitCode()>;
 
 void addControllerCommand(CLI::App& app, Action& action);
 void addEvaluateCommand(CLI::App& app, Action& action);
+void addCalibrateCommand(CLI::App& app, Action& action);
 void addCapabilityCommand(CLI::App& app, Action& action);
+void addCompensateCommand(CLI::App& app, Action& action);
+void addDemoCommand(CLI::App& app, Action& action);
 void addInspectCommand(CLI::App& app, Action& action);
 void addMachineCommand(CLI::App& app, Action& action);
 void addOptimizeCommand(CLI::App& app, Action& action);
 void addPlanCommand(CLI::App& app, Action& action);
 void addPocketCommand(CLI::App& app, Action& action);
+void addMeasureCommand(CLI::App& app, Action& action);
 void addPostCommand(CLI::App& app, Action& action);
 void addSimulateCommand(CLI::App& app, Action& action);
 void addSchemaCommand(CLI::App& app, Action& action);

@@ -34,6 +34,10 @@ ExitCode run(int argc, char** argv) {
     addSendCommand(app, action);
     addCapabilityCommand(app, action);
     addInspectCommand(app, action);
+    addMeasureCommand(app, action);
+    addDemoCommand(app, action);
+    addCompensateCommand(app, action);
+    addCalibrateCommand(app, action);
     addMachineCommand(app, action);
     addSchemaCommand(app, action);
     addSimulateCommand(app, action);

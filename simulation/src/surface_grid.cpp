@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cusp::simulation {
 
@@ -125,6 +126,21 @@ SurfaceGrid surfaceGrid(std::span<const SurfaceFace> faces, double spacing_mm) {
         if (part.empty()) continue;
         grid.tiles.push_back(tileOf(part, grid.points.size()));
         grid.points.insert(grid.points.end(), part.begin(), part.end());
+    }
+    return grid;
+}
+
+SurfaceGrid gridOfPoints(std::vector<GridPoint> points) {
+    constexpr std::size_t tile_points = 16;
+    SurfaceGrid grid;
+    grid.points = std::move(points);
+    for (std::size_t first = 0; first < grid.points.size(); first += tile_points) {
+        GridTile tile{.first = first, .count = std::min(tile_points, grid.points.size() - first)};
+        for (std::size_t i = first; i < first + tile.count; ++i) tile.center += grid.points[i].position;
+        tile.center /= static_cast<double>(tile.count);
+        for (std::size_t i = first; i < first + tile.count; ++i)
+            tile.radius_mm = std::max(tile.radius_mm, (grid.points[i].position - tile.center).norm());
+        grid.tiles.push_back(tile);
     }
     return grid;
 }

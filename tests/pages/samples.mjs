@@ -303,3 +303,46 @@ export function optimizationSample({ mode = "true", before = true, rows = 40, co
         map: { ...map, ...(before ? { before_deviation_mm } : {}) }, path,
     };
 }
+
+/** A demo's document: a pivot error in four sections, its correction, and what a calibration said. */
+export function loopSample() {
+    const random = new Random(20260917);
+    const arc_length_mm = Array.from({ length: 200 }, (_, i) => i * 0.55);
+    const curve = (size, wave) => arc_length_mm.map((s) => size * Math.sin(s / 40 + wave) - size / 3 + 0.002 * Math.sin(s * 2.4) + 0.0005 * random.normal());
+    const largest = (values) => Math.max(...values.map(Math.abs));
+    const sections = ["X=-5", "X=-30", "X=-60", "X=-90"].map((label, i) => {
+        const datum = { before_mm: curve(0.026, i / 4), uncorrected_mm: curve(0.026, i / 4), after_mm: curve(0.0008, i) };
+        const best_fit = { before_mm: curve(0.003, i / 4), after_mm: curve(0.0007, i) };
+        return {
+            label, points: arc_length_mm.length, before_mm: largest(datum.before_mm), uncorrected_mm: largest(datum.uncorrected_mm),
+            after_mm: largest(datum.after_mm), before_best_fit_mm: largest(best_fit.before_mm), after_best_fit_mm: largest(best_fit.after_mm),
+            curves: { arc_length_mm, datum, best_fit },
+        };
+    });
+    const part = (key, folder) => ({
+        max_abs_deviation_mm: Math.max(...sections.map((s) => s[key])), rms_deviation_mm: 0.4 * Math.max(...sections.map((s) => s[key])),
+        best_fit_max_abs_deviation_mm: 0.005, true_max_abs_deviation_mm: 0.98 * Math.max(...sections.map((s) => s[key])), report: `${folder}/report.html`,
+    });
+    const parameter = (name, state, value, interval_95, more = {}) => ({
+        name, meaning: "", state, value, interval_95, standard_uncertainty: interval_95 === null ? null : interval_95 / 1.96,
+        significant: false, known: false, with: [], remedy: null, ...more,
+    });
+    return {
+        schema: 1, command: "demo", version: "0.1.0", machine: "Fooke Endura class, C/A head", seed: 1, limit_mm: 0.01,
+        before: part("before_mm", "before"), uncorrected: part("uncorrected_mm", "uncorrected"), after: part("after_mm", "after"),
+        calibrated: part("after_mm", "calibrated"), sections,
+        hidden: [{ name: "pivot_length_mm", value: 0.0512 }, { name: "tool_length_mm", value: -0.011 }, { name: "lag_X_ms", value: 0.8 }],
+        compensation: { moved: 2400, locations: 2521, clamped: 0, max_shift_mm: 0.031, gouge_mm: 0.0002, shortest_wave_mm: 25.8 },
+        remains: [{ what: "path: scallops and chords", mm: 0.0039 }, { what: "measuring: noise (2\u03c3), form, drift", mm: 0.0017 }],
+        calibration: {
+            points: 396, rms_mm: 0.0005, noise_mm: 0.0005,
+            parameters: [
+                parameter("pivot_length_mm", "identified", 0.0508, 0.0041, { significant: true }),
+                parameter("tool_length_mm", "identified", -0.0105, 0.0038, { significant: true, known: true }),
+                parameter("lag_X_ms", "inseparable", null, null, { remedy: "record a circular test" }),
+            ],
+        },
+        link: { address: "modbus-tcp://127.0.0.1:40123", bytes: 184233, seconds: 0.42, chunks: 812, chunks_repeated: 0, compared: true },
+        blocks: 2604, run_s: 151.2, seconds: 24.8,
+    };
+}

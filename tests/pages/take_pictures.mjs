@@ -6,9 +6,9 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 
 import { Browser } from "./browser.mjs";
-import { capabilitySample, inspectionSample, optimizationSample, simulationSample, textureSample, tiltSample } from "./samples.mjs";
+import { capabilitySample, inspectionSample, loopSample, optimizationSample, simulationSample, textureSample, tiltSample } from "./samples.mjs";
 
-const samples = { capability: capabilitySample, inspection: inspectionSample, optimization: optimizationSample, simulation: simulationSample, texture: textureSample, tilt: tiltSample };
+const samples = { capability: capabilitySample, inspection: inspectionSample, loop: loopSample, loopSample, optimization: optimizationSample, simulation: simulationSample, texture: textureSample, tilt: tiltSample };
 const [renderPage, where] = process.argv.slice(2);
 const folder = resolve(where);
 mkdirSync(folder, { recursive: true });

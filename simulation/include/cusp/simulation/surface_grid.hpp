@@ -38,4 +38,7 @@ struct SurfaceGrid {
 /// apart: the widest of the lines looked at decides. Where a face has no normal it has no point.
 [[nodiscard]] SurfaceGrid surfaceGrid(std::span<const geometry::SurfaceFace> faces, double spacing_mm);
 
+/// Points of the caller's choice, in their order; neighbours in the list should be neighbours in space.
+[[nodiscard]] SurfaceGrid gridOfPoints(std::vector<GridPoint> points);
+
 }  // namespace cusp::simulation
