@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: The cusp authors
 # SPDX-License-Identifier: Apache-2.0
-# A five-axis CL file becomes an 840D program, and an independent reader proves it.
+# Five-axis CL files become 840D programs, and an independent reader proves them; then the loop is closed once.
 #
 #   scripts/demo.sh CUSP OUTPUT-FOLDER [CL-FILE…]
 set -euo pipefail
@@ -29,3 +29,6 @@ for cl in "$@"; do
     printf '\nThe first blocks of %s:\n' "$program"
     head -n 28 "$program"
 done
+
+# Beside the programs: surface, path, program, parts measured before and after, and the page of it all.
+run demo -o "$out"

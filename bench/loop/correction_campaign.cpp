@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // 100 machines with hidden errors: the first part out by more than ±0.030 mm in the fixed datums; how many second parts are
-// within ±0.010 mm after one correction, and how many when nothing is done. Argument: how many machines (100).
+// within ±0.010 mm after one correction, and how many when nothing is done. Arguments: how many machines (100), and
+// the number of the first (0).
 #include "loop_scene.hpp"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ double medianOf(std::vector<double> values) {
 
 int main(int argc, char** argv) {
     const int machines = argc > 1 ? std::atoi(argv[1]) : 100;
+    const int begin = argc > 2 ? std::atoi(argv[2]) : 0;
     const test_support::LoopScene scene(CUSP_SOURCE_DIR);
     base::Diagnostics warnings;
     const auto program = loop::postPath(scene.path, scene.file, scene.machine, "FIRST", warnings).value();
@@ -40,7 +42,7 @@ int main(int argc, char** argv) {
     std::vector<double> before_fit;
     int within = 0;
     int still_out = 0;
-    for (int i = 0; i < machines; ++i) {
+    for (int i = begin; i < begin + machines; ++i) {
         base::Random random = base::Random(campaign_seed).split(static_cast<std::uint64_t>(i));
         const auto drawn = loop::drawErrors(scene.machine, random);
         task.inspection.cmm.seed = random.next();

@@ -49,12 +49,12 @@ struct Outcome {
 base::Result<std::string> nominalOf(const Flags& flags, const std::string& report) {
     if (!flags.nominal.empty()) return flags.nominal;
     const auto json = base::Json::parse(report, nullptr, false);
-    if (json.is_object() && json.contains("nominal") && json["nominal"].is_string()) {
-        auto named = json["nominal"].get<std::string>();
+    if (json.is_object() && json.contains("nominal_file") && json["nominal_file"].is_string()) {
+        auto named = json["nominal_file"].get<std::string>();
         if (!named.empty()) return named;
     }
     return base::fail("compensate.nominal", "the report does not name its nominal surface; give --nominal",
-                      {flags.deviation, 0, 0, "nominal"});
+                      {flags.deviation, 0, 0, "nominal_file"});
 }
 
 base::Result<Outcome> compensatePath(const Flags& flags) {

@@ -29,7 +29,7 @@ base::Result<FirstPart> firstPartOut(const LoopTask& task, const AxisTrack& trac
     constexpr int most_steps = 40;
     constexpr double least_step = 1.05;
     constexpr double most_step = 3.0;
-    double factor = 0.5;
+    double factor = 0.1;
     for (int i = 0; i < most_steps; ++i) {
         MachineErrors hidden = scaled(drawn, factor);
         const auto real = realMachine(task.file->machine, hidden, task.setup);
@@ -56,8 +56,12 @@ base::Result<SecondPart> secondPart(const LoopTask& task, const MachineErrors& h
     const auto check = checkCorrection(*task.path, corrected->path, *task.nominal, field, task.compensation);
     if (!check) return base::fail(check.error());
     if (!check->holds())
-        return base::fail("loop.gouge",
-                          fmt::format("the corrected path cuts {:.4f} mm deeper than meant", check->gouge_mm));
+        return base::fail(
+            "loop.gouge",
+            fmt::format("the corrected path cuts {:.4f} mm deeper than meant at X{:.2f} Y{:.2f} Z{:.2f}; {} mm are "
+                        "allowed",
+                        check->gouge_mm, check->gouge_at_mm.x(), check->gouge_at_mm.y(), check->gouge_at_mm.z(),
+                        check->allowed_mm));
     base::Diagnostics warnings;
     auto program = postPath(corrected->path, *task.file, *task.machine, "CORRECTED", warnings);
     if (!program) return base::fail(program.error());

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// The benchmark surface on the way around the loop: a path that never cuts deep, a machine, four sections.
+// The benchmark surface on the way around the loop: the path of `cusp demo`, a machine, four sections.
 #pragma once
 
-#include "benchmark_path.hpp"
-
 #include <cusp/geometry/surface_file.hpp>
+#include <cusp/loop/budget_path.hpp>
 #include <cusp/loop/closed_loop.hpp>
 
-#include <sstream>
 #include <string>
 
 namespace cusp::test_support {
@@ -19,14 +17,16 @@ struct LoopScene {
         : file(post::readMachineFile(source + "/machines/fooke-endura-ca.toml").value()),
           machine(file.machine),
           nominal(geometry::readSurfaceFile(source + "/examples/benchmark/surface.toml").value()) {
-        // Lead 5.2° is steeper than the surface is hollow anywhere; 40 passes leave less than 4 µm.
-        BenchmarkPath parameters;
-        parameters.lead_rad = 0.09075712110370514;
-        parameters.passes = 40;
-        parameters.points_per_pass = 61;
-        std::istringstream text(benchmarkPathText(parameters));
-        base::Diagnostics warnings;
-        path = toolpath::readToolPath(text, "benchmark.cls", {}, warnings).value();
+        toolpath::Tool tool;
+        tool.number = 1;
+        tool.name = "TOROID_D16_R3";
+        tool.shape = toolpath::Tool::Shape::Toroidal;
+        tool.diameter_mm = 16.0;
+        tool.corner_radius_mm = 3.0;
+        tool.cutting_height_mm = 50.0;
+        tool.gauge_length_mm = 120.0;
+        plan = loop::planWithinBudget(nominal, tool, {}).value();
+        path = plan.path;
         setup = {.tool_length_mm = 120.0, .wcs_origin_mm = {3000.0, 0.0, -900.0}};
     }
 
@@ -39,13 +39,14 @@ struct LoopScene {
         out.inspection.nominal_file = "surface.toml";
         out.inspection.plan = loop::sectionTargets(nominal, sections, steps).value();
         out.inspection.inspection.sections = sections;
-        out.inspection.inspection.planned_step_over_mm = 2.6;
+        out.inspection.inspection.planned_step_over_mm = plan.step_over_mm;
         return out;
     }
 
     post::MachineFile file;
     kinematics::Machine machine;
     geometry::ParametricSurface nominal;
+    loop::BudgetPath plan;
     toolpath::ToolPath path;
     loop::CuttingSetup setup;
 };

@@ -81,6 +81,15 @@ TEST(Compensation, GainClampAndFade) {
     EXPECT_EQ(compensate(path, plane(0.0), field(0.0, 0.02), options).error().errorCount(), 2u);
 }
 
+TEST(Compensation, ARunOutOverTheEdgeKeepsTheShift) {
+    // The tool still cuts the edge from there: faded out, it would cut it deeper than the shift says. Far off it stays.
+    const auto path = pathOf("GOTO/39,10,0,0,0,1\nGOTO/48,10,0\nGOTO/70,10,0\n");
+    const auto tips = tipsOf(compensate(path, plane(0.0), field(0.0, -0.02), {}).value().path);
+    EXPECT_NEAR(tips[0].z(), 0.02, 1e-9);
+    EXPECT_NEAR(tips[1].z(), 0.02, 1e-9);
+    EXPECT_EQ(tips[2], Vector3(70, 10, 0));
+}
+
 TEST(Compensation, FollowsTheFrameOfThePath) {
     // The same cut told in a frame that lies on its side: its Z is the part's −Y.
     const auto path = pathOf("GOTO/10,0,-10,0,1,0\n", "MSYS/0,0,0,1,0,0,0,0,1\n");

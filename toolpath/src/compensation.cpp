@@ -15,6 +15,9 @@ namespace {
 
 using geometry::Vector3;
 
+/// 1 up to half of `reach`, 0 from all of it.
+double fadeOut(double distance_mm, double reach_mm) { return std::clamp(2.0 - 2.0 * distance_mm / reach_mm, 0.0, 1.0); }
+
 /// The point of the cutter's corner whose outward normal is −`normal`.
 Vector3 cornerPoint(const CutterLocation& location, const geometry::Cutter& cutter, const Vector3& normal) {
     constexpr double parallel = 1e-9;
@@ -73,7 +76,8 @@ private:
         ++out_.summary.locations;
         const auto contact = contactOf(location, line);
         if (!contact || !contact->foot.position.allFinite()) return;
-        const double fade = std::clamp(2.0 - 2.0 * contact->gap_mm / options_.reach_mm, 0.0, 1.0);
+        const double fade = fadeOut(contact->gap_mm, options_.reach_mm) *
+                            fadeOut(contact->aside_mm, options_.reach_mm + cutter_->diameter_mm);
         if (fade <= 0.0) return;
         const double by_mm = fade * compensationAt(contact->foot.position, contact->foot.normal, field_, options_);
         const double whole_mm = options_.gain * deviationAt(*contact);
@@ -130,7 +134,7 @@ CutterContact cutterContact(const CutterLocation& location, const geometry::Cutt
     constexpr int most_steps = 30;
     constexpr double settled = 1e-10;
     const Vector3 begin = location.tip_mm + cutter.corner_f_mm * location.axis;
-    CutterContact out{.foot = nominal.closest(begin), .gap_mm = 0.0};
+    CutterContact out{.foot = nominal.closest(begin)};
     Vector3 touch = begin;
     for (int i = 0; i < most_steps && out.foot.position.allFinite(); ++i) {
         const Vector3 normal = out.foot.normal;
@@ -138,7 +142,9 @@ CutterContact cutterContact(const CutterLocation& location, const geometry::Cutt
         out.foot = nominal.closest(touch);
         if ((out.foot.normal - normal).squaredNorm() < settled * settled) break;
     }
-    out.gap_mm = out.foot.distance_mm;
+    const Vector3 away = touch - out.foot.position;
+    out.gap_mm = away.dot(out.foot.normal);
+    out.aside_mm = (away - out.gap_mm * out.foot.normal).norm();
     return out;
 }
 

@@ -25,8 +25,9 @@ struct CompensationOptions {
     CompensatedPart part = CompensatedPart::PoseAndForm;
     double gain = 1.0;      ///< share of the deviation that is taken back, above 0 and at most 1.5
     double clamp_mm = 0.1;  ///< no location moves farther
-    /// A location whose cutter comes no nearer to the nominal than this is off the part and stays; between half of it and all
-    /// of it the shift fades out, so that a plunge has no step.
+    /// A location whose cutter stays this high above the nominal is off the part and stays; between half of it and all of it
+    /// the shift fades out, so that a plunge has no step. Beside the nominal the same holds of this and the cutter's diameter:
+    /// a tool that runs out over an edge still cuts there.
     double reach_mm = 2.0;
 };
 
@@ -49,6 +50,7 @@ struct CompensatedPath {
 struct CutterContact {
     geometry::Footpoint foot;  ///< on the nominal
     double gap_mm = 0.0;       ///< between cutter and nominal along the normal; < 0: the cutter is in the material
+    double aside_mm = 0.0;     ///< beyond the nominal's edge, across the normal there; 0 above its faces
 };
 [[nodiscard]] CutterContact cutterContact(const CutterLocation& location, const geometry::Cutter& cutter,
                                           const geometry::NominalShape& nominal);
