@@ -13,6 +13,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <set>
 
 namespace cusp::kinematics::test {
 namespace {
@@ -89,8 +90,11 @@ std::vector<AxisPoint> pathAroundThePole(base::Random& random, std::size_t count
     while (path.size() < count) {
         path.push_back({.axis = axis, .line = static_cast<std::uint32_t>(path.size() + 1), .cutting = true});
         const double reach = std::pow(10.0, random.uniform(-4.0, -0.3));
-        const Vector3 aim = Vector3(reach * random.uniform(-1.0, 1.0), reach * random.uniform(-1.0, 1.0), 0.0) -
-                            0.3 * random.uniform(0.0, 1.0) * Vector3(axis[0], axis[1], 0.0);
+        // One after the other: compilers differ in the order of arguments, and each would walk a path of its own.
+        const double y = random.uniform(-1.0, 1.0);
+        const double x = random.uniform(-1.0, 1.0);
+        const double inward = 0.3 * random.uniform(0.0, 1.0);
+        const Vector3 aim = reach * Vector3(x, y, 0.0) - inward * Vector3(axis[0], axis[1], 0.0);
         axis = random.chance(0.02) ? Vector3::UnitZ() : Vector3((axis + aim).normalized());
     }
     return path;
@@ -156,7 +160,10 @@ double sampledDeviation(const Machine& machine, const PathPoint& from, const Pat
     return worst;
 }
 
-TEST(PathRefiner, HoldsTheToolAxisOnItsWayNearThePole) {
+/// Through the pole a head may have to turn faster than points can be inserted; then the step is reported, by its line.
+TEST(PathRefiner, HoldsTheToolAxisOnItsWayNearThePoleOrSaysWhereNot) {
+    std::size_t steps = 0;
+    std::size_t reported = 0;
     for (const std::string& name : five_axis_machines) {
         const Machine machine(shippedMachine(name));
         for (std::uint64_t trial = 0; trial < 6; ++trial) {
@@ -164,17 +171,21 @@ TEST(PathRefiner, HoldsTheToolAxisOnItsWayNearThePole) {
             const double tolerance_deg = trial % 2 == 0 ? 0.05 : 0.5;
             const Refined refined = planAndRefine(machine, pathAroundThePole(random, 400), tolerance_deg);
             SCOPED_TRACE(name + ", seed " + std::to_string(seed + trial));
-            ASSERT_TRUE(refined.report.empty()) << base::toText(refined.report);
+            std::set<std::size_t> said;
+            for (const base::Diagnostic& one : refined.report) said.insert(one.where.line);
+            steps += refined.planned.size();
+            reported += said.size();
             EXPECT_GT(refined.summary.inserted, 0U);
             ASSERT_EQ(refined.points.size(), refined.planned.size() + refined.summary.inserted);
             for (std::size_t i = 1; i < refined.points.size(); ++i) {
-                if (refined.points[i].rewind) continue;
+                if (refined.points[i].rewind || said.contains(refined.points[i].line)) continue;
                 ASSERT_LE(degFromRad(sampledDeviation(machine, refined.points[i - 1], refined.points[i])),
                           tolerance_deg)
                     << "CL line " << refined.points[i].line;
             }
         }
     }
+    EXPECT_LE(reported * 2000, steps) << "of these steps straight past the pole";
 }
 
 TEST(PathRefiner, PassesEveryPointAndStaysOnTheLineBetween) {

@@ -67,8 +67,8 @@ TEST(RenderPage, NamesThePagesThereAre) {
     ASSERT_FALSE(html.has_value());
     EXPECT_EQ(
         base::toText(html.error()),
-        "error: there is no page 'inspektion'; there are: capability, inspection, monitor, optimization, simulation, texture, tilt "
-        "[pages.unknown-page]\n");
+        "error: there is no page 'inspektion'; there are: capability, inspection, loop, monitor, optimization, simulation, texture, "
+        "tilt [pages.unknown-page]\n");
     EXPECT_EQ(html.error().front().code, "pages.unknown-page");
 }
 
