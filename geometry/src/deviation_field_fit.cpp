@@ -8,7 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace cusp::geometry {
@@ -165,6 +169,44 @@ Eigen::MatrixXd penaltyOf(const Data& data) {
     return penalty;
 }
 
+/// Samples whose noise may hang together: those of one block, a quarter of the shortest wave long along every axis the
+/// field changes along. In their order, block by block; `begin` has one more entry than there are blocks.
+struct Blocks {
+    std::vector<std::size_t> order;
+    std::vector<std::size_t> begin;
+
+    [[nodiscard]] std::size_t count() const { return begin.size() - 1; }
+};
+
+/// Every sample a block of its own.
+Blocks singles(const Samples& samples) {
+    Blocks out;
+    out.order.resize(samples.used.size());
+    out.begin.resize(samples.used.size() + 1);
+    std::iota(out.order.begin(), out.order.end(), std::size_t{0});
+    std::iota(out.begin.begin(), out.begin.end(), std::size_t{0});
+    return out;
+}
+
+Blocks blocksOf(const Samples& samples, const Data& data) {
+    const double length_mm = 0.25 * data.shortest_wave_mm;
+    std::vector<std::array<double, 3>> cell(samples.used.size(), {0.0, 0.0, 0.0});
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+        const Vector3 at = data.field_from_nominal * samples.used[i].position;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (data.axes[k].degree > 0)
+                cell[i][k] = std::floor((at[static_cast<Eigen::Index>(k)] - data.axes[k].low_mm) / length_mm);
+    }
+    Blocks out = singles(samples);
+    std::ranges::sort(out.order,
+                      [&](std::size_t a, std::size_t b) { return std::tie(cell[a], a) < std::tie(cell[b], b); });
+    out.begin.clear();
+    for (std::size_t i = 0; i < out.order.size(); ++i)
+        if (i == 0 || cell[out.order[i]] != cell[out.order[i - 1]]) out.begin.push_back(i);
+    out.begin.push_back(out.order.size());
+    return out;
+}
+
 /// Normal equations of the spline, divided by the number of samples.
 struct NormalEquations {
     Eigen::MatrixXd matrix;
@@ -172,72 +214,102 @@ struct NormalEquations {
     double square = 0.0;
 };
 
-NormalEquations normalEquations(const Samples& samples, const Data& data) {
+/// Each block counts as the mean of its samples, as often as it has samples. The spline's values are averaged as the
+/// deviations are, so that a spline without noise is met whatever the blocks.
+NormalEquations normalEquations(const Samples& samples, const Blocks& blocks, const Data& data) {
     const auto total = static_cast<Eigen::Index>(coefficientsOf(data));
     const auto count = static_cast<double>(samples.used.size());
-    NormalEquations out{Eigen::MatrixXd::Zero(total, total), Eigen::VectorXd::Zero(total), meanSquare(samples.left_mm)};
-    std::vector<std::pair<Eigen::Index, double>> terms;
-    for (std::size_t i = 0; i < samples.used.size(); ++i) {
-        terms.clear();
-        detail::forEachTerm(data, samples.used[i].position, [&](std::size_t index, double value) {
-            terms.emplace_back(static_cast<Eigen::Index>(index), value);
-        });
-        for (std::size_t a = 0; a < terms.size(); ++a) {
-            out.right[terms[a].first] += terms[a].second * samples.left_mm[i];
-            for (std::size_t b = 0; b <= a; ++b)
-                out.matrix(terms[a].first, terms[b].first) += terms[a].second * terms[b].second;
+    NormalEquations out{Eigen::MatrixXd::Zero(total, total), Eigen::VectorXd::Zero(total), 0.0};
+    std::map<Eigen::Index, double> sum;  // growing indices, so the lower triangle is filled
+    for (std::size_t block = 0; block < blocks.count(); ++block) {
+        sum.clear();
+        double left_mm = 0.0;
+        for (std::size_t k = blocks.begin[block]; k < blocks.begin[block + 1]; ++k) {
+            const std::size_t i = blocks.order[k];
+            detail::forEachTerm(data, samples.used[i].position, [&](std::size_t index, double value) {
+                sum[static_cast<Eigen::Index>(index)] += value;
+            });
+            left_mm += samples.left_mm[i];
+        }
+        const double weight = 1.0 / (count * static_cast<double>(blocks.begin[block + 1] - blocks.begin[block]));
+        out.square += weight * left_mm * left_mm;
+        for (auto a = sum.begin(); a != sum.end(); ++a) {
+            out.right[a->first] += weight * a->second * left_mm;
+            for (auto b = sum.begin(); b != std::next(a); ++b)
+                out.matrix(a->first, b->first) += weight * a->second * b->second;
         }
     }
-    // Terms come with growing indices, so the lower triangle is filled.
-    out.matrix = (out.matrix.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd::Identity(total, total)).eval() / count;
-    out.right /= count;
+    out.matrix = (out.matrix.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd::Identity(total, total)).eval();
     return out;
 }
 
 struct Smoothed {
-    Eigen::VectorXd coefficients;
-    double lambda = 0.0;
-    double freedoms = 0.0;
+    Eigen::VectorXd scaled;  ///< coefficients in the basis of the spectrum
+    double freedoms = 0.0;   ///< of the form
     double mean_square = 0.0;
 };
 
-/// The λ with the least GCV score among powers of 10^(1/4), or the largest of equals. In the basis that makes the matrix
-/// plus a penalty the identity every λ costs one pass over the eigenvalues.
-Smoothed smoothed(const NormalEquations& equations, Eigen::MatrixXd penalty, double samples, double pose_freedoms) {
-    const Eigen::Index n = equations.matrix.rows();
-    // What neither samples nor second differences see is drawn to zero.
-    penalty += Eigen::MatrixXd::Identity(n, n) * (1e-10 * std::max(penalty.trace(), 1e-30) / static_cast<double>(n));
-    const double kappa = equations.matrix.trace() / penalty.trace();
-    const Eigen::LLT<Eigen::MatrixXd> factor(equations.matrix + kappa * penalty);
-    Eigen::MatrixXd inner = factor.matrixL().solve(penalty);
-    inner = factor.matrixL().solve(inner.transpose()).eval();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (inner + inner.transpose()));
-    const Eigen::VectorXd right = eigen.eigenvectors().transpose() * factor.matrixL().solve(equations.right);
-    Smoothed best;
-    Eigen::VectorXd scaled(n);
+/// The basis that makes the matrix plus kappa times the penalty the identity: every λ costs one pass over the eigenvalues.
+class Spectrum {
+public:
+    Spectrum(const NormalEquations& equations, const Eigen::MatrixXd& penalty)
+        : kappa_(equations.matrix.trace() / penalty.trace()),
+          factor_(equations.matrix + kappa_ * penalty),
+          square_(equations.square) {
+        Eigen::MatrixXd inner = factor_.matrixL().solve(penalty);
+        inner = factor_.matrixL().solve(inner.transpose()).eval();
+        eigen_.compute(0.5 * (inner + inner.transpose()));
+        right_ = eigen_.eigenvectors().transpose() * factor_.matrixL().solve(equations.right);
+    }
+
+    /// The λ at which samples and penalty weigh the same.
+    [[nodiscard]] double kappa() const { return kappa_; }
+    [[nodiscard]] Smoothed at(double lambda) const {
+        Smoothed out{Eigen::VectorXd(right_.size()), 0.0, square_};
+        for (Eigen::Index k = 0; k < right_.size(); ++k) {
+            const double gamma = std::clamp(eigen_.eigenvalues()[k], 0.0, 1.0 / kappa_);
+            const double seen = 1.0 - kappa_ * gamma;
+            const double divisor = seen + lambda * gamma;
+            out.scaled[k] = right_[k] / divisor;
+            out.freedoms += seen / divisor;
+            out.mean_square += out.scaled[k] * (seen * out.scaled[k] - 2.0 * right_[k]);
+        }
+        out.mean_square = std::max(out.mean_square, 1e-30 * square_);
+        return out;
+    }
+    [[nodiscard]] Eigen::VectorXd coefficients(const Smoothed& found) const {
+        return factor_.matrixU().solve(eigen_.eigenvectors() * found.scaled);
+    }
+
+private:
+    double kappa_;
+    Eigen::LLT<Eigen::MatrixXd> factor_;
+    double square_;
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen_;
+    Eigen::VectorXd right_;
+};
+
+/// The λ with the least GCV score among powers of 10^(1/4), or the largest of equals. Points along a section lie closer than
+/// scallops and chords are long, so their noise hangs together; left out one by one each is foretold by its neighbours
+/// however rough the field is elsewhere, and λ could be next to nothing, the field wild between the sections. The score
+/// therefore leaves out blocks.
+double chooseLambda(const Spectrum& spectrum, double blocks, double pose_freedoms) {
+    double best = 0.0;
     double least = std::numeric_limits<double>::infinity();
     constexpr int steps_per_decade = 4;
     constexpr int decades_up = 6;
     constexpr int decades_down = 8;
+    /// A freedom counts more than once (Kim & Gu 2004), or one choice in many follows the noise.
+    constexpr double dearer = 1.4;
     for (int step = decades_up * steps_per_decade; step >= -decades_down * steps_per_decade; --step) {
-        const double lambda = kappa * std::pow(10.0, static_cast<double>(step) / steps_per_decade);
-        double freedoms = pose_freedoms;
-        double left = equations.square;
-        for (Eigen::Index k = 0; k < n; ++k) {
-            const double gamma = std::clamp(eigen.eigenvalues()[k], 0.0, 1.0 / kappa);
-            const double seen = 1.0 - kappa * gamma;
-            const double divisor = seen + lambda * gamma;
-            scaled[k] = right[k] / divisor;
-            freedoms += seen / divisor;
-            left += scaled[k] * (seen * scaled[k] - 2.0 * right[k]);
-        }
-        left = std::max(left, 1e-30 * equations.square);
-        const double open = samples - freedoms;
-        if (!(open > 0.0)) continue;
-        const double score = left / (open * open);
-        if (!(score < least)) continue;
+        const double lambda = spectrum.kappa() * std::pow(10.0, static_cast<double>(step) / steps_per_decade);
+        const Smoothed tried = spectrum.at(lambda);
+        const double open = blocks - dearer * (tried.freedoms + pose_freedoms);
+        if (best > 0.0 && !(open > 0.0)) break;
+        const double score = open > 0.0 ? tried.mean_square / (open * open) : least;
+        if (best > 0.0 && !(score < least)) continue;
         least = score;
-        best = {factor.matrixU().solve(eigen.eigenvectors() * scaled), lambda, freedoms, left};
+        best = lambda;
     }
     return best;
 }
@@ -271,13 +343,20 @@ base::Result<DeviationField> DeviationField::fit(std::span<const DeviationSample
     const bool sheet = chooseFrame(used, data);
     boxSamples(used, data);
     chooseKnots(options, sheet, data);
-    const Smoothed found = smoothed(normalEquations(used, data), penaltyOf(data), count, pose_freedoms);
-    if (!found.coefficients.allFinite() || found.coefficients.size() == 0)
+    Eigen::MatrixXd penalty = penaltyOf(data);
+    // What neither samples nor second differences see is drawn to zero.
+    penalty.diagonal().array() += 1e-10 * std::max(penalty.trace(), 1e-30) / static_cast<double>(penalty.rows());
+    const Blocks blocks = blocksOf(used, data);
+    const Spectrum left_out(normalEquations(used, blocks, data), penalty);
+    data.smoothing = chooseLambda(left_out, static_cast<double>(blocks.count()), pose_freedoms);
+    const Spectrum spectrum(normalEquations(used, singles(used), data), penalty);
+    const Smoothed found = spectrum.at(data.smoothing);
+    const Eigen::VectorXd coefficients = spectrum.coefficients(found);
+    data.effective_freedoms = found.freedoms + pose_freedoms;
+    if (!coefficients.allFinite() || !(count > data.effective_freedoms))
         return base::fail("deviation-field.too-few", "the points do not determine a deviation field");
-    data.coefficients_mm.assign(found.coefficients.begin(), found.coefficients.end());
-    data.smoothing = found.lambda;
-    data.effective_freedoms = found.freedoms;
-    data.residual_mm = std::sqrt(found.mean_square * count / (count - found.freedoms));
+    data.coefficients_mm.assign(coefficients.begin(), coefficients.end());
+    data.residual_mm = std::sqrt(found.mean_square * count / (count - data.effective_freedoms));
     return DeviationField(std::move(data));
 }
 

@@ -54,9 +54,10 @@ struct FieldAxis {
 ///     field->deviation(footpoint.position, footpoint.normal);      // mm along the normal: pose and form
 ///     field->form(footpoint.position);                             // form only
 ///
-/// f minimises Σ(d − f)² + λ·∫(f_xx² + f_yy² + f_zz²); λ by generalised cross-validation (Craven & Wahba 1979), the integral
-/// by second differences of coefficients (Eilers & Marx 1996), which also bridges gaps between sections. Outside the samples' box
-/// f keeps its value at the box.
+/// f minimises Σ(d − f)² + λ·∫(f_xx² + f_yy² + f_zz²); the integral by second differences of coefficients (Eilers & Marx
+/// 1996), which also bridges gaps between sections. λ by generalised cross-validation (Craven & Wahba 1979), a freedom
+/// counting 1.4 times (Kim & Gu 2004), over means of blocks a quarter of the shortest wave long: neighbours along a section
+/// share their scallop and their chord, and must not foretell each other. Outside the samples' box f keeps its value at the box.
 class DeviationField {
 public:
     /// All that is known of a field; what JSON holds.
