@@ -90,6 +90,39 @@ TEST(Compensation, ARunOutOverTheEdgeKeepsTheShift) {
     EXPECT_EQ(tips[2], Vector3(70, 10, 0));
 }
 
+TEST(Compensation, ALeaningCutterKeepsItsContactWhereTheShiftHasASlope) {
+    // The part is 1 µm per mm too high along X, so the surface to cut is z = -0.001 x. A tool leaning 3° in Y fits like a ball
+    // of 98 mm there; shifted along the normal alone it would touch 0.1 mm beside. An upright one goes straight down.
+    const double slope = 0.001;
+    std::vector<geometry::DeviationSample> samples;
+    for (int i = 0; i <= 8; ++i)
+        for (int j = 0; j <= 8; ++j) samples.push_back({{5.0 * i, 5.0 * j, 0.0}, Vector3::UnitZ(), slope * 5.0 * i});
+    const auto high = geometry::DeviationField::fit(samples, {}).value();
+    const geometry::Cutter toroid{.diameter_mm = 16.0,
+                                  .corner_radius_mm = 3.0,
+                                  .corner_e_mm = 5.0,
+                                  .corner_f_mm = 3.0,
+                                  .cutting_height_mm = 50.0};
+    const auto nominal = plane(0.0);
+    ToolPath path = pathOf("GOTO/20,20,0,0,0,1\nGOTO/20,20,0,0,0,1\n");
+    CutterLocation leaning{.tip_mm = {20, 20, 0},
+                           .axis = {0, std::sin(std::numbers::pi / 60.0), std::cos(std::numbers::pi / 60.0)}};
+    leaning.tip_mm.z() -= cutterContact(leaning, toroid, nominal).gap_mm;
+    for (ClRecord& record : path.records)
+        if (auto* motion = std::get_if<LinearMotion>(&record.statement)) {
+            motion->location = leaning;
+            break;
+        }
+    const auto done = compensate(path, nominal, high, {}).value();
+    const auto tips = tipsOf(done.path);
+    const auto before = cutterContact(leaning, toroid, nominal);
+    const auto after = cutterContact({.tip_mm = tips[0], .axis = leaning.axis}, toroid, plane(-slope));
+    EXPECT_NEAR(after.gap_mm, 0.0, 2e-6);
+    EXPECT_LT((after.foot.position - before.foot.position).head<2>().norm(), 0.002);
+    EXPECT_GT((tips[0] - leaning.tip_mm).head<2>().norm(), 0.05);
+    EXPECT_LT((tips[1] - Vector3(20, 20, -0.02)).norm(), 1e-6);
+}
+
 TEST(Compensation, FollowsTheFrameOfThePath) {
     // The same cut told in a frame that lies on its side: its Z is the part's −Y.
     const auto path = pathOf("GOTO/10,0,-10,0,1,0\n", "MSYS/0,0,0,1,0,0,0,0,1\n");

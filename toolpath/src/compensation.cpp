@@ -83,10 +83,42 @@ private:
         const double whole_mm = options_.gain * deviationAt(*contact);
         if (std::abs(whole_mm) > options_.clamp_mm) ++out_.summary.clamped;
         if (!field_.covers(contact->foot.position, 1.0)) ++out_.summary.extrapolated;
-        location.tip_mm += part_from_path_.linear().transpose() * (by_mm * contact->foot.normal);
+        const Vector3 shift_mm = by_mm * contact->foot.normal + rolled(location, contact->foot, fade);
+        location.tip_mm += part_from_path_.linear().transpose() * shift_mm;
         ++out_.summary.moved;
         out_.summary.max_shift_mm = std::max(out_.summary.max_shift_mm, std::abs(by_mm));
         squares_ += by_mm * by_mm;
+    }
+
+    /// What keeps the contact where it is when the surface to cut leans against the nominal by the slope of the shift: the
+    /// cutter then touches with another point of its corner. Left out, a cutter that nearly fits the surface would touch far
+    /// beside and gouge by slope² / (2 · difference of the curvatures).
+    [[nodiscard]] Vector3 rolled(const CutterLocation& location, const geometry::Footpoint& foot, double fade) const {
+        constexpr double step_mm = 0.5;
+        Vector3 slope = Vector3::Zero();
+        Eigen::Index across = 0;
+        foot.normal.cwiseAbs().minCoeff(&across);
+        const Vector3 first = foot.normal.cross(Vector3::Unit(across)).normalized();
+        for (const Vector3& along : {first, Vector3(foot.normal.cross(first))}) {
+            const auto ahead = nominal_.closest(foot.position + step_mm * along);
+            const auto behind = nominal_.closest(foot.position - step_mm * along);
+            const double run_mm = along.dot(ahead.position - behind.position);
+            if (!(run_mm > 0.5 * step_mm)) continue;
+            slope += along * (fade *
+                              (compensationAt(ahead.position, ahead.normal, field_, options_) -
+                               compensationAt(behind.position, behind.normal, field_, options_)) /
+                              run_mm);
+        }
+        const CutterLocation in_part{.tip_mm = part_from_path_ * location.tip_mm,
+                                     .axis = part_from_path_.linear() * location.axis};
+        const Vector3 whole_mm = cornerPoint(in_part, *cutter_, foot.normal) -
+                                 cornerPoint(in_part, *cutter_, (foot.normal - slope).normalized());
+        // A bottom that lies on the surface has no contact to keep: it would leap from side to side.
+        constexpr double flat = 0.005;
+        constexpr double most_mm = 0.2;
+        const double lean = foot.normal.cross(in_part.axis).norm();
+        return std::clamp(lean / flat - 1.0, 0.0, 1.0) * std::min(1.0, most_mm / std::max(whole_mm.norm(), most_mm)) *
+               whole_mm;
     }
 
     [[nodiscard]] double deviationAt(const CutterContact& contact) const {

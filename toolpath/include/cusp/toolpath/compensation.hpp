@@ -24,7 +24,7 @@ enum class CompensatedPart : std::uint8_t {
 struct CompensationOptions {
     CompensatedPart part = CompensatedPart::PoseAndForm;
     double gain = 1.0;      ///< share of the deviation that is taken back, above 0 and at most 1.5
-    double clamp_mm = 0.1;  ///< no location moves farther
+    double clamp_mm = 0.1;  ///< no location moves farther along the normal
     /// A location whose cutter stays this high above the nominal is off the part and stays; between half of it and all of it
     /// the shift fades out, so that a plunge has no step. Beside the nominal the same holds of this and the cutter's diameter:
     /// a tool that runs out over an edge still cuts there.
@@ -36,8 +36,8 @@ struct CompensationSummary {
     std::size_t moved = 0;         ///< that cut the surface and were shifted
     std::size_t clamped = 0;       ///< held at the clamp
     std::size_t extrapolated = 0;  ///< shifted where nothing was measured: the field keeps its value at its edge
-    double max_shift_mm = 0.0;
-    double rms_shift_mm = 0.0;  ///< of those moved
+    double max_shift_mm = 0.0;     ///< along the normal
+    double rms_shift_mm = 0.0;     ///< of those moved
 };
 
 struct CompensatedPath {
@@ -59,8 +59,9 @@ struct CutterContact {
 [[nodiscard]] double compensationAt(const geometry::Vector3& position, const geometry::Vector3& normal,
                                     const geometry::DeviationField& field, const CompensationOptions& options);
 
-/// Shifts every location that cuts the nominal by `compensationAt` its contact, along the normal there; tool axes, feeds and
-/// everything else stay. `nominal` and field are in the frame of the part.
+/// Shifts every location that cuts the nominal by `compensationAt` its contact, along the normal there, and across it by what
+/// keeps the contact in its place where the shift has a slope (0.2 mm at most; none for a bottom flat on the surface). Tool
+/// axes, feeds and everything else stay. `nominal` and field are in the frame of the part.
 ///
 /// Errors: `compensate.option`; `compensate.no-cutter`, `compensate.arc` and `compensate.spline` (motion at the part that is
 /// no point), with the line; `compensate.nothing` (no location cuts the nominal).
