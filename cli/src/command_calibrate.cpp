@@ -49,11 +49,6 @@ struct LoadedPart {
     double probe_radius_mm = 0.0;
 };
 
-std::string beside(const std::string& job_file, const std::string& path) {
-    const fs::path given(path);
-    return given.is_absolute() ? path : (fs::path(job_file).parent_path() / given).string();
-}
-
 base::Result<loop::CalibrationJob> readJob(const std::string& path) {
     const auto document = base::TomlDocument::readFile(path);
     if (!document) return base::fail(document.error());
@@ -77,14 +72,14 @@ base::Result<double> probeRadius(const loop::CalibrationPartJob& part, const ins
 base::Result<LoadedPart> loadPart(const std::string& job_file, const loop::CalibrationJob& job,
                                   const loop::CalibrationPartJob& part, const LoadedMachine& machine) {
     LoadedPart out;
-    auto cut = readWholeCl(beside(job_file, part.cl_file)).and_then(loop::cutJob);
+    auto cut = readWholeCl(besideFile(job_file, part.cl_file)).and_then(loop::cutJob);
     if (!cut) return base::fail(cut.error());
     out.job = *std::move(cut);
     base::Diagnostics remarks;
-    auto nominal = geometry::loadNominal(beside(job_file, part.nominal), remarks);
+    auto nominal = geometry::loadNominal(besideFile(job_file, part.nominal), remarks);
     if (!nominal) return base::fail(nominal.error());
     out.nominal = *std::move(nominal);
-    const std::string points_file = beside(job_file, part.points);
+    const std::string points_file = besideFile(job_file, part.points);
     auto input = TextInput::open(points_file);
     if (!input) return base::fail(input.error());
     auto points = inspect::readMeasuredPoints(input->stream(), input->name(), {}, remarks);
@@ -102,7 +97,7 @@ base::Result<LoadedPart> loadPart(const std::string& job_file, const loop::Calib
         out.track = *std::move(track);
         return out;
     }
-    auto record = TextInput::open(beside(job_file, part.motion));
+    auto record = TextInput::open(besideFile(job_file, part.motion));
     if (!record) return base::fail(record.error());
     auto track = loop::readTrack(record->stream(), record->name(), machine.model);
     if (!track) return base::fail(track.error());
@@ -149,7 +144,7 @@ ExitCode runCalibrate(const Flags& flags) {
     if (!job) return failWith(job.error());
     // A machine file beside the job goes before one that ships.
     std::error_code ignored;
-    const std::string near = beside(flags.job, job->machine);
+    const std::string near = besideFile(flags.job, job->machine);
     const auto machine = loadMachine(fs::exists(near, ignored) ? near : job->machine);
     if (!machine) return failWith(machine.error());
     const auto result = calibrateParts(flags, *job, *machine);

@@ -48,7 +48,7 @@ base::Result<Planned> planJob(const Flags& flags) {
     if (!job) return base::fail(job.error());
     Planned out;
     out.job = *std::move(job);
-    auto tool = loadTool(besideFile(flags.job_file, out.job.tool.library), out.job.tool.name);
+    auto tool = loadTool(besideFile(flags.job_file, out.job.tool.tool_library), out.job.tool.name);
     if (!tool) return base::fail(tool.error());
     out.tool = *std::move(tool);
     auto setting = loadSetting(out.job.machine, flags.job_file);

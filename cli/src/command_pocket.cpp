@@ -4,6 +4,7 @@
 #include "command.hpp"
 #include "console.hpp"
 #include "finishing_input.hpp"
+#include "input.hpp"
 #include "machine_lookup.hpp"
 
 #include <cusp/base/atomic_file.hpp>

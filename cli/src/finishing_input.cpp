@@ -4,18 +4,13 @@
 #include "finishing_input.hpp"
 
 #include "console.hpp"
+#include "input.hpp"
 
 #include <cusp/geometry/cad/nominal_file.hpp>
 
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace cusp::cli {
-
-std::string besideFile(const std::string& file, const std::string& named) {
-    const std::filesystem::path path(named);
-    return path.is_absolute() ? named : (std::filesystem::path(file).parent_path() / path).string();
-}
 
 base::Result<LoadedPart> loadPart(const std::string& path, const std::vector<std::int64_t>& faces) {
     base::Diagnostics warnings;

@@ -18,9 +18,6 @@
 
 namespace cusp::cli {
 
-/// A path named in a file: as it is where it is absolute, else from the folder of that file.
-[[nodiscard]] std::string besideFile(const std::string& file, const std::string& named);
-
 struct LoadedPart {
     std::unique_ptr<geometry::NominalShape> shape;
     const geometry::ParametricSurface* surface = nullptr;

@@ -28,6 +28,11 @@ std::string fileNameOf(const std::string& path) {
     return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
 }
 
+std::string besideFile(const std::string& file, const std::string& named) {
+    const std::filesystem::path path(named);
+    return path.is_absolute() ? named : (std::filesystem::path(file).parent_path() / path).string();
+}
+
 base::Result<TextInput> TextInput::open(const std::string& path) {
     TextInput input;
     input.name_ = path == "-" ? "stdin" : path;

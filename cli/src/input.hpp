@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
-// CL files and programs, or standard input, opened for reading.
+// CL files and programs, or standard input, opened for reading; paths that a file names.
 #pragma once
 
 #include <cusp/base/result.hpp>
@@ -21,6 +21,9 @@ namespace cusp::cli {
 
 /// The file name without its folder; "-" as "standard input".
 [[nodiscard]] std::string fileNameOf(const std::string& path);
+
+/// A path named in a file: as it is where it is absolute, else from the folder of that file.
+[[nodiscard]] std::string besideFile(const std::string& file, const std::string& named);
 
 /// A text file or standard input.
 class TextInput {

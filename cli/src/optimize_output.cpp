@@ -4,6 +4,7 @@
 #include "optimize_output.hpp"
 
 #include "finishing_input.hpp"
+#include "input.hpp"
 #include "optimize_page.hpp"
 
 #include <cusp/base/atomic_file.hpp>
@@ -29,8 +30,8 @@ finishing::PlanJob planJobOf(const std::string& job_file, const Optimized& done)
     out.name = done.job.name;
     out.part = done.job.part;
     out.part.nominal = absolute(done.job.part.nominal);
-    out.tool = {absolute(done.job.tools.library), done.tool.name, done.job.tools.spindle_rpm, done.job.tools.coolant,
-                done.job.tools.edge_radius_mm};
+    out.tool = {absolute(done.job.tools.tool_library), done.tool.name, done.job.tools.spindle_rpm,
+                done.job.tools.coolant, done.job.tools.edge_radius_mm};
     out.machine = done.job.machine;
     const finishing::PlanOptions& options = done.path.contacts.options;
     out.passes = options.passes;

@@ -5,7 +5,8 @@
 
 #include "console.hpp"
 #include "finishing_input.hpp"
-#include "progress_bar.hpp"
+#include "input.hpp"
+#include "shown_progress.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/hash.hpp>
@@ -13,8 +14,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
-#include <mutex>
 #include <utility>
 
 namespace cusp::cli {
@@ -24,35 +23,8 @@ namespace {
 constexpr double map_grid_mm = 1.0;
 constexpr double band_mm = 0.5;
 
-/// A bar on stderr, and Ctrl-C.
-class Watch : public base::Progress {
-public:
-    void begin(std::uint64_t total, std::string_view label) override {
-        const std::lock_guard lock(mutex_);
-        bar_ = std::make_unique<ProgressBar>(std::string(label));
-        total_ = total;
-        done_ = 0;
-    }
-    void advance(std::uint64_t steps) override {
-        const std::lock_guard lock(mutex_);
-        done_ += steps;
-        if (bar_) bar_->show(done_, total_);
-    }
-    void end() override {
-        const std::lock_guard lock(mutex_);
-        bar_.reset();
-    }
-    [[nodiscard]] bool stopRequested() const override { return interrupted(); }
-
-private:
-    std::mutex mutex_;
-    std::unique_ptr<ProgressBar> bar_;
-    std::uint64_t total_ = 0;
-    std::uint64_t done_ = 0;
-};
-
 base::Result<std::vector<toolpath::Tool>> toolsOf(const finishing::ToolChoice& choice, const std::string& job_file) {
-    const std::string library = besideFile(job_file, choice.library);
+    const std::string library = besideFile(job_file, choice.tool_library);
     if (choice.names.empty()) {
         auto tools = toolpath::readToolLibraryFile(library);
         if (!tools) return base::fail(tools.error());
@@ -74,7 +46,7 @@ struct Run {
     const geometry::NominalShape& shape;
     const std::vector<toolpath::Tool>& tools;
     const LoadedSetting* setting;
-    Watch& watch;
+    ShownProgress& watch;
     Optimized& done;
 
     [[nodiscard]] optimizer::SearchOptions searchOptions() const {
@@ -94,7 +66,7 @@ private:
         base::Sha256 digest;
         digest.update(finishing::optimizeJobSection().toToml(job));
         digest.update(flags.evaluator);
-        for (const std::string& named : {job.part.nominal, job.tools.library})
+        for (const std::string& named : {job.part.nominal, job.tools.tool_library})
             digest.update(base::readWholeFile(besideFile(flags.job_file, named), most_bytes).value_or(""));
         return digest.hex();
     }
@@ -127,20 +99,6 @@ base::Result<void> judgeBefore(Optimized& done, const finishing::Workpiece& part
     before.points = path.contacts.points.size();
     done.before = std::move(before);
     return {};
-}
-
-finishing::PaperProblem paperProblem(const Run& run) {
-    const auto& job = run.done.job;
-    finishing::PaperProblem out;
-    out.tools = run.tools;
-    out.step_over_share = job.ranges.step_over_share;
-    out.lead_rad = job.ranges.lead_rad;
-    out.tilt_rad = job.ranges.tilt_rad;
-    out.chord_tolerance_mm = job.ranges.chord_tolerance_mm;
-    out.error_weight = job.search.error_weight;
-    out.edge_radius_mm = job.tools.edge_radius_mm;
-    out.options = job.options();
-    return out;
 }
 
 base::Result<finishing::FinishingPath> planned(const Run& run, const finishing::PaperProblem& problem,
@@ -193,7 +151,7 @@ base::Result<void> takePlanned(const Run& run, const finishing::PaperProblem& pr
 
 base::Result<void> optimizePaper(const Run& run) {
     Optimized& done = run.done;
-    const auto problem = paperProblem(run);
+    const auto problem = done.job.paperProblem(run.tools);
     const auto encoding = finishing::paperEncoding(problem);
     if (!encoding) return base::fail(encoding.error());
     const auto objective = finishing::paperObjective(run.part, problem);
@@ -223,28 +181,10 @@ base::Result<void> optimizePaper(const Run& run) {
     return judge(done, run.part);
 }
 
-finishing::TrueProblem trueProblem(const Run& run, const LoadedSetting& setting) {
-    const auto& job = run.done.job;
-    finishing::TrueProblem out;
-    out.tools = run.tools;
-    out.setting = setting.setting;
-    out.tool_length_fixed = job.machine.tool_length_mm.has_value();
-    out.options = job.options();
-    out.tolerance_mm = job.part.tolerance_mm;
-    out.depth_share = job.ranges.depth_share;
-    out.width_share = job.ranges.passes_share;
-    out.curvature_safety = job.ranges.curvature_safety;
-    out.search_grid_mm = job.search.search_grid_mm;
-    out.level_grid_mm = job.search.level_grid_mm;
-    out.proof_grid_mm = job.search.proof_grid_mm;
-    out.front_passes = job.search.front_passes;
-    return out;
-}
-
 /// The job's check holds that true mode names a machine.
 base::Result<void> optimizeTrue(const Run& run, const LoadedSetting& setting) {
     Optimized& done = run.done;
-    const auto problem = trueProblem(run, setting);
+    const auto problem = done.job.trueProblem(run.tools, setting.setting);
     run.watch.begin(static_cast<std::uint64_t>(done.job.search.evaluations), "searching");
     auto found = finishing::searchTrue(run.part, problem, run.searchOptions(), run.watch);
     run.watch.end();
@@ -304,7 +244,7 @@ base::Result<Optimized> runOptimization(const OptimizeFlags& flags) {
     if (failure)
         return base::fail("io.create", "cannot make the folder: " + failure.message(),
                           {.file = flags.folder, .line = 0, .column = 0, .key = {}});
-    Watch watch;
+    ShownProgress watch;
     const finishing::Workpiece workpiece = part->workpiece();
     const Run run{flags, workpiece, *part->shape, *tools, *setting ? &**setting : nullptr, watch, done};
     const auto outcome = paper ? optimizePaper(run) : optimizeTrue(run, **setting);

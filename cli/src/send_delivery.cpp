@@ -4,9 +4,9 @@
 #include "send_delivery.hpp"
 
 #include "console.hpp"
-#include "progress_bar.hpp"
 #include "send_monitor.hpp"
 #include "send_record.hpp"
+#include "shown_progress.hpp"
 
 #include <cusp/base/atomic_file.hpp>
 #include <cusp/base/hash.hpp>
@@ -23,21 +23,6 @@
 namespace cusp::cli {
 
 namespace {
-
-/// A bar on a terminal, and Ctrl-C as the request to stop.
-class ShownProgress : public base::Progress {
-public:
-    explicit ShownProgress(const std::string& label) : bar_(label) {}
-    void begin(std::uint64_t total, std::string_view) override { total_ = total; }
-    void advance(std::uint64_t steps) override { bar_.show(done_ += steps, total_); }
-    void end() override {}
-    bool stopRequested() const override { return interrupted(); }
-
-private:
-    ProgressBar bar_;
-    std::uint64_t done_ = 0;
-    std::uint64_t total_ = 0;
-};
 
 base::Json rateJson(const comm::RateCheck& check) {
     base::Json out;
@@ -192,7 +177,7 @@ ExitCode sendOverLink(const SendFlags& flags, const comm::LinkUrl& url, const co
     }
     const double begin_s = comm::transferClockSeconds();
     {
-        ShownProgress progress("sending");
+        ShownProgress progress;
         SlowLinkWarning warning;
         BusyNote busy;
         comm::runTransfer(sender, **link, progress, [&](const comm::Sender& at) {
@@ -232,7 +217,7 @@ ExitCode sendPlain(const SendFlags& flags, const comm::LinkUrl& url, const comm:
     if (flags.line_end == "crlf") options.line_end = comm::LineEnd::CrLf;
     comm::PlainStreamer streamer(program.text, options);
     const double begin_s = comm::transferClockSeconds();
-    ShownProgress progress("sending");
+    ShownProgress progress;
     const auto ran = comm::runPlain(streamer, *stream, options, progress);
     const double seconds = comm::transferClockSeconds() - begin_s;
     record->end(ran ? "sent, unconfirmed" : "aborted", ran ? "" : base::toText(ran.error().front()));
@@ -288,7 +273,7 @@ ExitCode fetchProgram(const SendFlags& flags, const comm::LinkUrl& url) {
     options.client = randomClient();
     comm::Fetcher fetcher(flags.fetch, options, (*link)->traits());
     {
-        ShownProgress progress("fetching");
+        ShownProgress progress;
         comm::runFetch(fetcher, **link, progress);
     }
     if (!fetcher.code().empty()) {

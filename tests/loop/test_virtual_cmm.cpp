@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // The virtual CMM against parts whose form is known, and its files against the readers of inspect.
-#include <cusp/geometry/parametric_surface.hpp>
-#include <cusp/geometry/surface_file.hpp>
+#include "sloping_plane.hpp"
+
 #include <cusp/inspect/inspection.hpp>
 #include <cusp/inspect/point_reader.hpp>
 #include <cusp/loop/measurement_files.hpp>
@@ -14,16 +14,6 @@
 
 namespace cusp::loop {
 namespace {
-
-/// A plane z = slope · x over 40 × 40 mm.
-geometry::ParametricSurface plane(double slope) {
-    return geometry::ParametricSurface(
-        geometry::readSurface("schema = 1\nname = \"plane\"\n[[face]]\nform = \"polynomial\"\noutward = \"du x dv\"\n"
-                              "x_mm = { \"u\" = 40.0 }\ny_mm = { \"v\" = 40.0 }\nz_mm = { \"u\" = " +
-                                  std::to_string(40.0 * slope) + " }\n",
-                              "plane.toml")
-            .value());
-}
 
 geometry::Cutter ball(double diameter_mm) {
     return {.diameter_mm = diameter_mm,
@@ -51,7 +41,7 @@ CmmPlan sections(const geometry::NominalShape& nominal, const char* text) {
 }
 
 TEST(VirtualCmm, TouchesAPlaneWhereItIs) {
-    const auto nominal = plane(0.5);
+    const auto nominal = test_support::slopingPlane(0.5);
     const auto plan = sections(nominal, "X=10,20");
     ASSERT_EQ(plan.targets.size(), 2u * 77u);  // 40 mm at 0.5 mm, less 1 mm at the ends
     const auto run = measurePart(ballPasses(0.5, 10.0, 0.01, 0.02), plan, nominal, exactProbe()).value();
@@ -64,7 +54,7 @@ TEST(VirtualCmm, TouchesAPlaneWhereItIs) {
 }
 
 TEST(VirtualCmm, ComesAlongTheApproach) {
-    const auto nominal = plane(0.5);
+    const auto nominal = test_support::slopingPlane(0.5);
     const auto plan = sections(nominal, "X=10");
     CmmOptions options = exactProbe();
     options.approach = Vector3::UnitZ();
@@ -83,7 +73,7 @@ TEST(VirtualCmm, ComesAlongTheApproach) {
 TEST(VirtualCmm, TheBallBridgesCuspsItDoesNotFitInto) {
     // Grooves of a ball of 0.5 mm radius, 0.2 mm apart: 10.1 µm high cusps. A ball of 1 mm radius hangs between two cusps
     // 0.1 mm to each side of it, (0.1)²/2 = 5.0 µm lower than they are.
-    const auto nominal = plane(0.0);
+    const auto nominal = test_support::slopingPlane(0.0);
     CmmPlan plan;
     plan.targets.push_back({.position = {20.0, 20.0, 0.0}, .normal = Vector3::UnitZ()});
     const auto path = ballPasses(0.0, 1.0, 0.2, 0.0);
@@ -96,7 +86,7 @@ TEST(VirtualCmm, TheBallBridgesCuspsItDoesNotFitInto) {
 }
 
 TEST(VirtualCmm, NoiseFormAndDriftAreAsAskedFor) {
-    const auto nominal = plane(0.0);
+    const auto nominal = test_support::slopingPlane(0.0);
     SectionSteps fine;
     fine.step_mm = 0.05;
     const auto plan = sectionTargets(nominal, inspect::parseSectionPlan("X=5,10,15,20,25,30,35").value(), fine).value();
@@ -121,7 +111,7 @@ TEST(VirtualCmm, NoiseFormAndDriftAreAsAskedFor) {
 }
 
 TEST(VirtualCmm, WhatIsNotCutIsLeftOutAndSaid) {
-    const auto nominal = plane(0.0);
+    const auto nominal = test_support::slopingPlane(0.0);
     auto path = ballPasses(0.0, 10.0, 0.02, 0.0);
     for (auto& move : path.moves) move.to.tip_mm.y() = 15.0;
     const auto run = measurePart(path, sections(nominal, "X=20"), nominal, exactProbe()).value();
@@ -134,7 +124,7 @@ TEST(VirtualCmm, WhatIsNotCutIsLeftOutAndSaid) {
 }
 
 TEST(VirtualCmm, RefusesWhatMakesNoSense) {
-    const auto nominal = plane(0.0);
+    const auto nominal = test_support::slopingPlane(0.0);
     const auto outside = sectionTargets(nominal, inspect::parseSectionPlan("X=50").value(), {});
     ASSERT_FALSE(outside);
     EXPECT_EQ(outside.error().front().code, "measure.section");
@@ -150,7 +140,7 @@ TEST(VirtualCmm, RefusesWhatMakesNoSense) {
 class Files : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Files, AreTakenByTheReaders) {
-    const auto nominal = plane(0.5);
+    const auto nominal = test_support::slopingPlane(0.5);
     CmmOptions options;
     options.probe_radius_mm = 1.5;
     options.seed = 3;

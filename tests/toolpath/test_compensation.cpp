@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // Shifts of a compensated path against closed forms on planes and against contact by brute force.
+#include "sloping_plane.hpp"
+
 #include <cusp/base/random.hpp>
-#include <cusp/geometry/parametric_surface.hpp>
-#include <cusp/geometry/surface_file.hpp>
 #include <cusp/toolpath/compensation.hpp>
 
 #include <cmath>
@@ -17,16 +17,6 @@ namespace {
 using geometry::Vector3;
 
 constexpr std::uint64_t seed = 20260905;
-
-/// z = slope · x over 40 × 40 mm.
-geometry::ParametricSurface plane(double slope) {
-    return geometry::ParametricSurface(
-        geometry::readSurface("schema = 1\nname = \"plane\"\n[[face]]\nform = \"polynomial\"\noutward = \"du x dv\"\n"
-                              "x_mm = { \"u\" = 40.0 }\ny_mm = { \"v\" = 40.0 }\nz_mm = { \"u\" = " +
-                                  std::to_string(40.0 * slope) + " }\n",
-                              "plane.toml")
-            .value());
-}
 
 geometry::DeviationField field(double slope, double deviation_mm) {
     std::vector<geometry::DeviationSample> samples;
@@ -53,7 +43,7 @@ std::vector<Vector3> tipsOf(const ToolPath& path) {
 TEST(Compensation, MovesEveryLocationAtThePartAgainstTheDeviation) {
     // A tool upright on a flat part, 0.02 mm too high everywhere; the last location is far off.
     const auto path = pathOf("GOTO/10,10,0,0,0,1\nGOTO/30,10,0\nGOTO/30,10,20\n");
-    const auto done = compensate(path, plane(0.0), field(0.0, 0.02), {}).value();
+    const auto done = compensate(path, test_support::slopingPlane(0.0), field(0.0, 0.02), {}).value();
     const auto tips = tipsOf(done.path);
     EXPECT_LT((tips[0] - Vector3(10, 10, -0.02)).norm(), 1e-9);
     EXPECT_LT((tips[1] - Vector3(30, 10, -0.02)).norm(), 1e-9);
@@ -67,24 +57,24 @@ TEST(Compensation, GainClampAndFade) {
     const auto path = pathOf("GOTO/10,10,0,0,0,1\nGOTO/30,10,1.5\n");
     CompensationOptions options;
     options.gain = 0.5;
-    const auto half = tipsOf(compensate(path, plane(0.0), field(0.0, 0.02), options).value().path);
+    const auto half = tipsOf(compensate(path, test_support::slopingPlane(0.0), field(0.0, 0.02), options).value().path);
     EXPECT_NEAR(half[0].z(), -0.01, 1e-9);
     // 1.5 mm over the part with a reach of 2 mm: half of the shift is left.
     EXPECT_NEAR(half[1].z(), 1.5 - 0.005, 1e-9);
     options = {};
     options.clamp_mm = 0.015;
-    const auto clamped = compensate(path, plane(0.0), field(0.0, 0.02), options).value();
+    const auto clamped = compensate(path, test_support::slopingPlane(0.0), field(0.0, 0.02), options).value();
     EXPECT_NEAR(tipsOf(clamped.path)[0].z(), -0.015, 1e-9);
     EXPECT_EQ(clamped.summary.clamped, 2u);
     options.gain = 2.0;
     options.clamp_mm = 0.0;
-    EXPECT_EQ(compensate(path, plane(0.0), field(0.0, 0.02), options).error().errorCount(), 2u);
+    EXPECT_EQ(compensate(path, test_support::slopingPlane(0.0), field(0.0, 0.02), options).error().errorCount(), 2u);
 }
 
 TEST(Compensation, ARunOutOverTheEdgeKeepsTheShift) {
     // The tool still cuts the edge from there: faded out, it would cut it deeper than the shift says. Far off it stays.
     const auto path = pathOf("GOTO/39,10,0,0,0,1\nGOTO/48,10,0\nGOTO/70,10,0\n");
-    const auto tips = tipsOf(compensate(path, plane(0.0), field(0.0, -0.02), {}).value().path);
+    const auto tips = tipsOf(compensate(path, test_support::slopingPlane(0.0), field(0.0, -0.02), {}).value().path);
     EXPECT_NEAR(tips[0].z(), 0.02, 1e-9);
     EXPECT_NEAR(tips[1].z(), 0.02, 1e-9);
     EXPECT_EQ(tips[2], Vector3(70, 10, 0));
@@ -103,7 +93,7 @@ TEST(Compensation, ALeaningCutterKeepsItsContactWhereTheShiftHasASlope) {
                                   .corner_e_mm = 5.0,
                                   .corner_f_mm = 3.0,
                                   .cutting_height_mm = 50.0};
-    const auto nominal = plane(0.0);
+    const auto nominal = test_support::slopingPlane(0.0);
     ToolPath path = pathOf("GOTO/20,20,0,0,0,1\nGOTO/20,20,0,0,0,1\n");
     CutterLocation leaning{.tip_mm = {20, 20, 0},
                            .axis = {0, std::sin(std::numbers::pi / 60.0), std::cos(std::numbers::pi / 60.0)}};
@@ -116,7 +106,8 @@ TEST(Compensation, ALeaningCutterKeepsItsContactWhereTheShiftHasASlope) {
     const auto done = compensate(path, nominal, high, {}).value();
     const auto tips = tipsOf(done.path);
     const auto before = cutterContact(leaning, toroid, nominal);
-    const auto after = cutterContact({.tip_mm = tips[0], .axis = leaning.axis}, toroid, plane(-slope));
+    const auto after =
+        cutterContact({.tip_mm = tips[0], .axis = leaning.axis}, toroid, test_support::slopingPlane(-slope));
     EXPECT_NEAR(after.gap_mm, 0.0, 2e-6);
     EXPECT_LT((after.foot.position - before.foot.position).head<2>().norm(), 0.002);
     EXPECT_GT((tips[0] - leaning.tip_mm).head<2>().norm(), 0.05);
@@ -126,12 +117,12 @@ TEST(Compensation, ALeaningCutterKeepsItsContactWhereTheShiftHasASlope) {
 TEST(Compensation, FollowsTheFrameOfThePath) {
     // The same cut told in a frame that lies on its side: its Z is the part's −Y.
     const auto path = pathOf("GOTO/10,0,-10,0,1,0\n", "MSYS/0,0,0,1,0,0,0,0,1\n");
-    const auto done = compensate(path, plane(0.0), field(0.0, 0.02), {}).value();
+    const auto done = compensate(path, test_support::slopingPlane(0.0), field(0.0, 0.02), {}).value();
     EXPECT_LT((tipsOf(done.path)[0] - Vector3(10, -0.02, -10)).norm(), 1e-9);
 }
 
 TEST(Compensation, TheContactIsTheOneBruteForceFinds) {
-    const auto nominal = plane(0.6);
+    const auto nominal = test_support::slopingPlane(0.6);
     const Vector3 normal = Vector3(-0.6, 0, 1).normalized();
     const geometry::Cutter toroid{.diameter_mm = 16.0,
                                   .corner_radius_mm = 3.0,
@@ -161,7 +152,7 @@ TEST(Compensation, TheContactIsTheOneBruteForceFinds) {
 }
 
 TEST(Compensation, RefusesByName) {
-    const auto nominal = plane(0.0);
+    const auto nominal = test_support::slopingPlane(0.0);
     const auto bent = field(0.0, 0.02);
     const auto codeOf = [&](const ToolPath& path) {
         const auto done = compensate(path, nominal, bent, {});

@@ -25,17 +25,8 @@ using optimizer::Algorithm;
 
 const std::string benchmark = CUSP_SOURCE_DIR "/examples/benchmark/";
 
-finishing::PaperProblem problemOf(const finishing::OptimizeJob& job) {
-    finishing::PaperProblem out;
-    out.tools = toolpath::readToolLibraryFile(benchmark + job.tools.library).value().tools;
-    out.step_over_share = job.ranges.step_over_share;
-    out.lead_rad = job.ranges.lead_rad;
-    out.tilt_rad = job.ranges.tilt_rad;
-    out.chord_tolerance_mm = job.ranges.chord_tolerance_mm;
-    out.error_weight = job.search.error_weight;
-    out.edge_radius_mm = job.tools.edge_radius_mm;
-    out.options = job.options();
-    return out;
+std::vector<toolpath::Tool> toolsOf(const finishing::OptimizeJob& job) {
+    return toolpath::readToolLibraryFile(benchmark + job.tools.tool_library).value().tools;
 }
 
 struct Row {
@@ -86,7 +77,7 @@ int main(int argc, char** argv) {
     const auto job = finishing::readOptimizeJobFile(benchmark + "paper.toml").value();
     const auto faces = geometry::readSurfaceFile(benchmark + job.part.nominal).value();
     const finishing::Workpiece part{faces, nullptr};
-    const auto problem = problemOf(job);
+    const auto problem = job.paperProblem(toolsOf(job));
     const auto objective = finishing::paperObjective(part, problem).value();
     const auto evaluate = finishing::paperEvaluator(part, problem, objective);
     const auto binary = finishing::paperEncoding(problem, optimizer::Coding::Binary).value();

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The cusp authors
 // SPDX-License-Identifier: Apache-2.0
 // The elements in the order the schema of QIF 3.0 wants them; ids are constants, those of sections follow them.
+#include "qif/qif_parts.hpp"
 #include "qif/qif_sections.hpp"
 
 #include <cusp/base/hash.hpp>
-#include <cusp/base/number_text.hpp>
-#include <cusp/base/version.hpp>
 #include <cusp/inspect/qif_writer.hpp>
 
 #include <array>
@@ -19,26 +18,6 @@ namespace cusp::inspect {
 namespace {
 
 constexpr std::size_t piece_bytes = 64 * 1024;
-/// A picometre: xs:decimal knows no exponent.
-constexpr int decimals = 9;
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char character : text) {
-        const auto byte = static_cast<unsigned char>(character);
-        if (character == '&')
-            out += "&amp;";
-        else if (character == '<')
-            out += "&lt;";
-        else if (character == '>')
-            out += "&gt;";
-        else
-            out += byte < 0x20 ? ' ' : character;  // XML 1.0 cannot say control characters
-    }
-    return out;
-}
-
-std::string decimal(double value) { return base::formatFixed(value, decimals, base::TrailingZeros::Strip); }
 
 void hashNumber(base::Sha256& hash, double value) {
     const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -59,10 +38,10 @@ public:
     }
 
     base::Result<void> write() {
-        head();
+        out_ += qifHead(digest(), sections_.last_id, {});
         if (has_limits_) standards();
-        units();
-        features();
+        out_ += qifUnits();
+        out_ += qifFeature({feature_definition_id, feature_nominal_id, feature_item_id}, report_.nominal_file);
         if (has_limits_) characteristics();
         results();
         out_ += "</QIFDocument>\n";
@@ -97,8 +76,7 @@ private:
         if (out_.size() >= piece_bytes) flush();
     }
 
-    /// RFC 9562, version 8: an identity made from the content.
-    std::string identity() const {
+    std::string digest() const {
         base::Sha256 hash;
         hash.update(report_.points_file);
         hash.update(report_.nominal_file);
@@ -106,24 +84,7 @@ private:
             for (const double coordinate : point.nominal) hashNumber(hash, coordinate);
             hashNumber(hash, point.deviation_mm);
         }
-        std::string hex = hash.hex();
-        hex[12] = '8';
-        hex[16] = "89ab"[hex[16] % 4];
-        return fmt::format("{}-{}-{}-{}-{}", hex.substr(0, 8), hex.substr(8, 4), hex.substr(12, 4), hex.substr(16, 4),
-                           hex.substr(20, 12));
-    }
-
-    void head() {
-        out_ += fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>
-<QIFDocument xmlns="http://qifstandards.org/xsd/qif3" versionQIF="3.0.0" idMax="{}">
-  <QPId>{}</QPId>
-  <Header>
-    <Application>
-      <Name>cusp {}</Name>
-    </Application>
-  </Header>
-)",
-                            sections_.last_id, identity(), base::version());
+        return hash.hex();
     }
 
     void standards() {
@@ -138,53 +99,6 @@ private:
   </StandardsDefinitions>
 )",
                             standard_id);
-    }
-
-    void units() {
-        out_ += R"(  <FileUnits>
-    <PrimaryUnits>
-      <AngularUnit>
-        <SIUnitName>radian</SIUnitName>
-        <UnitName>radian</UnitName>
-      </AngularUnit>
-      <LinearUnit>
-        <SIUnitName>meter</SIUnitName>
-        <UnitName>mm</UnitName>
-        <UnitConversion>
-          <Factor>0.001</Factor>
-        </UnitConversion>
-      </LinearUnit>
-    </PrimaryUnits>
-  </FileUnits>
-)";
-    }
-
-    void features() {
-        out_ += fmt::format(R"(  <Features>
-    <FeatureDefinitions n="1">
-      <OtherSurfaceFeatureDefinition id="{0}"/>
-    </FeatureDefinitions>
-    <FeatureNominals n="1">
-      <OtherSurfaceFeatureNominal id="{1}">
-        <FeatureDefinitionId>{0}</FeatureDefinitionId>
-      </OtherSurfaceFeatureNominal>
-    </FeatureNominals>
-    <FeatureItems n="1">
-      <OtherSurfaceFeatureItem id="{2}">
-        <FeatureNominalId>{1}</FeatureNominalId>
-        <FeatureName>{3}</FeatureName>
-        <DeterminationMode>
-          <Checked>
-            <CheckDetails>
-              <Measured/>
-            </CheckDetails>
-          </Checked>
-        </DeterminationMode>
-      </OtherSurfaceFeatureItem>
-    </FeatureItems>
-  </Features>
-)",
-                            feature_definition_id, feature_nominal_id, feature_item_id, escaped(report_.nominal_file));
     }
 
     void characteristics() {
@@ -216,8 +130,8 @@ private:
 {12}    </CharacteristicItems>
   </Characteristics>
 )",
-                            standard_id, characteristic_definition_id, decimal(limits.upper_mm - limits.lower_mm),
-                            decimal(limits.upper_mm), characteristic_nominal_id, feature_nominal_id,
+                            standard_id, characteristic_definition_id, qifDecimal(limits.upper_mm - limits.lower_mm),
+                            qifDecimal(limits.upper_mm), characteristic_nominal_id, feature_nominal_id,
                             characteristic_item_id, feature_item_id, sections_.count > 0 ? 2 : 1, 1 + sections_.count,
                             sections_.definition, sections_.nominals, sections_.items);
     }
@@ -258,14 +172,14 @@ private:
                         points_, point_set_id);
         list("Points", [](const PointDeviation& point) {
             const Vector3 at = point.surfacePoint();
-            return fmt::format("{} {} {}", decimal(at.x()), decimal(at.y()), decimal(at.z()));
+            return fmt::format("{} {} {}", qifDecimal(at.x()), qifDecimal(at.y()), qifDecimal(at.z()));
         });
         list("Normals", [](const PointDeviation& point) {
-            return fmt::format("{} {} {}", decimal(point.normal.x()), decimal(point.normal.y()),
-                               decimal(point.normal.z()));
+            return fmt::format("{} {} {}", qifDecimal(point.normal.x()), qifDecimal(point.normal.y()),
+                               qifDecimal(point.normal.z()));
         });
         out_ += "            <Compensated>true</Compensated>\n";
-        list("Deviations", [](const PointDeviation& point) { return decimal(point.deviation_mm); });
+        list("Deviations", [](const PointDeviation& point) { return qifDecimal(point.deviation_mm); });
         out_ += "          </MeasuredPointSet>\n        </MeasuredPointSets>\n";
     }
 
@@ -302,8 +216,8 @@ private:
         </MeasuredCharacteristics>
 )",
                             1 + sections_.count, measured_characteristic_id, characteristicStatus(),
-                            characteristic_item_id, measured_feature_id, decimal(s.profile_mm), decimal(s.max_mm),
-                            decimal(s.min_mm), sections_.measurements);
+                            characteristic_item_id, measured_feature_id, qifDecimal(s.profile_mm), qifDecimal(s.max_mm),
+                            qifDecimal(s.min_mm), sections_.measurements);
     }
 
     std::string_view characteristicStatus() const {

@@ -4,6 +4,7 @@
 #include <cusp/optimizer/finishing/optimize_job.hpp>
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace cusp::finishing {
 
@@ -96,7 +97,7 @@ const Section<OptimizeJob>& optimizeJobSection() {
     using J = OptimizeJob;
     static const auto tools =
         Section<ToolChoice>("Tools to choose from.")
-            .field("library", &ToolChoice::library,
+            .field("library", &ToolChoice::tool_library,
                    "Tool library file; beside the job file unless the path says otherwise.", base::required())
             .field("names", &ToolChoice::names, "Names of the tools; all of the library where the list is empty.")
             .field("spindle_rpm", &ToolChoice::spindle_rpm, "Spindle speed; 0 writes none.", not_negative)
@@ -160,6 +161,36 @@ optimizer::SearchOptions OptimizeJob::searchOptions() const {
     out.seed = static_cast<std::uint64_t>(search.seed);
     out.population = static_cast<std::size_t>(search.population);
     out.max_evaluations = static_cast<std::size_t>(search.evaluations);
+    return out;
+}
+
+PaperProblem OptimizeJob::paperProblem(std::vector<toolpath::Tool> from) const {
+    PaperProblem out;
+    out.tools = std::move(from);
+    out.step_over_share = ranges.step_over_share;
+    out.lead_rad = ranges.lead_rad;
+    out.tilt_rad = ranges.tilt_rad;
+    out.chord_tolerance_mm = ranges.chord_tolerance_mm;
+    out.error_weight = search.error_weight;
+    out.edge_radius_mm = tools.edge_radius_mm;
+    out.options = options();
+    return out;
+}
+
+TrueProblem OptimizeJob::trueProblem(std::vector<toolpath::Tool> from, const MachineSetting& setting) const {
+    TrueProblem out;
+    out.tools = std::move(from);
+    out.setting = setting;
+    out.tool_length_fixed = machine.tool_length_mm.has_value();
+    out.options = options();
+    out.tolerance_mm = part.tolerance_mm;
+    out.depth_share = ranges.depth_share;
+    out.width_share = ranges.passes_share;
+    out.curvature_safety = ranges.curvature_safety;
+    out.search_grid_mm = search.search_grid_mm;
+    out.level_grid_mm = search.level_grid_mm;
+    out.proof_grid_mm = search.proof_grid_mm;
+    out.front_passes = search.front_passes;
     return out;
 }
 

@@ -169,7 +169,7 @@ const Section<FeedJob>& feedSection() {
 const Section<PlanJob>& planJobSection() {
     static const auto tool =
         Section<ToolJob>("What it is machined with.")
-            .field("library", &ToolJob::library,
+            .field("library", &ToolJob::tool_library,
                    "Tool library file; beside the job file unless the path says otherwise.", base::required())
             .field("name", &ToolJob::name, "Name of the tool in the library.", base::required())
             .field("spindle_rpm", &ToolJob::spindle_rpm, "Spindle speed; 0 writes none.", not_negative)

@@ -18,7 +18,8 @@ using FileRemarks = std::vector<std::string>;
 /// "csv", "dmis", "qif"; by the ending of a file's name: .csv .txt, .dmo .dms, .qif. Error `measure.format`.
 [[nodiscard]] base::Result<std::string> measurementFormat(std::string_view path);
 
-/// Centres with their approach i, j, k, in mm to 1e-7. CSV has a column `section`; DMIS output and QIF have none for it.
+/// Centres with their approach i, j, k, in mm to 1e-7 (QIF: 1e-9). CSV has a column `section`; DMIS output and QIF have none
+/// for it.
 [[nodiscard]] std::string measurementText(const inspect::MeasuredPoints& points, const std::string& format,
                                           const FileRemarks& remarks);
 

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cusp/optimizer/evolution/search.hpp>
+#include <cusp/optimizer/finishing/paper_problem.hpp>
 #include <cusp/optimizer/finishing/plan_job.hpp>
+#include <cusp/optimizer/finishing/true_search.hpp>
 
 #include <array>
 #include <cstdint>
@@ -20,7 +22,7 @@ enum class OptimizeMode : std::uint8_t {
 
 /// Tools to choose from.
 struct ToolChoice {
-    std::string library;
+    std::string tool_library;        ///< file, from the folder of the job
     std::vector<std::string> names;  ///< empty: all of the library
     double spindle_rpm = 0.0;
     bool coolant = true;
@@ -74,6 +76,9 @@ struct OptimizeJob {
     /// What is not searched for.
     [[nodiscard]] PlanOptions options() const;
     [[nodiscard]] optimizer::SearchOptions searchOptions() const;
+    /// The job as a problem for the engines, with the tools its library has.
+    [[nodiscard]] PaperProblem paperProblem(std::vector<toolpath::Tool> from) const;
+    [[nodiscard]] TrueProblem trueProblem(std::vector<toolpath::Tool> from, const MachineSetting& setting) const;
 };
 
 [[nodiscard]] const base::Section<OptimizeJob>& optimizeJobSection();

@@ -22,7 +22,7 @@ struct PartJob {
 
 /// What it is machined with.
 struct ToolJob {
-    std::string library;
+    std::string tool_library;  ///< file, from the folder of the job
     std::string name;
     double spindle_rpm = 0.0;
     bool coolant = true;
