@@ -58,12 +58,13 @@ function tickStep(range_um: number): number {
 /** The legend: a bar from the lower to the upper end with ticks in µm, and what a ring means. */
 export function legend(scale: ColorScale, beyond: number): SVGSVGElement {
   const { low_mm, high_mm, are_limits } = scale.range;
-  const width = 108;
+  const left = -24; // room for a count of six digits
+  const right = 108;
   const top = 26;
   const bottom = 204;
   const y = (mm: number): number => bottom + ((mm - low_mm) / (high_mm - low_mm)) * (top - bottom);
   const label = `Colour scale from ${fixed(low_mm * 1000, 1)} to ${fixed(high_mm * 1000, 1)} micrometres`;
-  const out = svg("svg", { class: "legend", viewBox: `0 0 ${width} 250`, preserveAspectRatio: "xMaxYMin meet", role: "img", "aria-label": label });
+  const out = svg("svg", { class: "legend", viewBox: `${left} 0 ${right - left} 250`, preserveAspectRatio: "xMaxYMin meet", role: "img", "aria-label": label });
   const bands = 60;
   for (let i = 0; i < bands; ++i) {
     const mm = low_mm + ((i + 0.5) / bands) * (high_mm - low_mm);

@@ -24,24 +24,26 @@ attribute vec3 lifted;
 attribute float beyond;
 uniform float lift;
 uniform float size_px;
+uniform float grow;
 varying vec3 v_tint;
 varying float v_beyond;
 void main() {
   v_tint = tint;
   v_beyond = beyond;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position + lifted * lift, 1.0);
-  gl_PointSize = size_px * (1.0 + 0.8 * beyond);
+  gl_PointSize = size_px * (1.0 + grow * beyond);
   gl_Position.z -= 0.0004 * beyond;
 }`;
 
 const fragmentShader = `
 uniform vec3 ring;
+uniform float ring_from;
 varying vec3 v_tint;
 varying float v_beyond;
 void main() {
   float r = length(gl_PointCoord - 0.5) * 2.0;
   if (r > 1.0) discard;
-  gl_FragColor = vec4(v_beyond > 0.5 && r > 0.66 ? ring : v_tint, 1.0);
+  gl_FragColor = vec4(v_beyond > 0.5 && r > ring_from ? ring : v_tint, 1.0);
 }`;
 
 export class PointCloud {
@@ -70,7 +72,7 @@ export class PointCloud {
     geometry.setAttribute("position", new Float32BufferAttribute(this.where, 3));
     const material = new ShaderMaterial({
       vertexShader, fragmentShader,
-      uniforms: { lift: { value: 0 }, size_px: { value: 6 }, ring: { value: new Color() } },
+      uniforms: { lift: { value: 0 }, size_px: { value: 6 }, grow: { value: 0 }, ring_from: { value: 0 }, ring: { value: new Color() } },
     });
     this.points = new Points(geometry, material);
     this.points.frustumCulled = false;
@@ -100,6 +102,10 @@ export class PointCloud {
     geometry.setAttribute("tint", new Float32BufferAttribute(tint, 3));
     geometry.setAttribute("beyond", new Float32BufferAttribute(beyond, 1));
     geometry.setAttribute("lifted", new Float32BufferAttribute(this.lifted, 3));
+    // A few stand out; where they are many, rings would hide the colours of all.
+    const few = count <= n / 20;
+    (material.uniforms["grow"] as { value: number }).value = few ? 0.8 : 0;
+    (material.uniforms["ring_from"] as { value: number }).value = few ? 0.66 : 0.88;
     (material.uniforms["ring"] as { value: Color }).value.setStyle(token("ink"), "srgb-linear");
     return count;
   }
