@@ -166,7 +166,49 @@ ExitCode runCalibrate(const Flags& flags) {
     return result->converged ? ExitCode::Done : ExitCode::FoundSomething;
 }
 
+base::Result<std::string> lastRotaryOf(const std::string& machine) {
+    const auto loaded = loadMachine(machine);
+    if (!loaded) return base::fail(loaded.error());
+    const auto& rotary = loaded->model.rotaryNames();
+    if (rotary.size() < 2)
+        return base::fail("calibrate.machine",
+                          machine + ": the artefact is cut with tilts to all sides, which needs two rotary axes");
+    return rotary.back();
+}
+
+/// The job that goes with the artefact. `last_rotary` is the axis next to the tool: a ball hides how the tool leans, which is that
+/// axis's zero.
+std::string planJob(const std::string& machine, const std::string& last_rotary) {
+    return fmt::format(R"(schema = 1
+machine = "{}"
+# As the control has them when the artefact is cut.
+tool_length_mm = 100.0
+wcs_origin_mm = [0.0, 0.0, 0.0]
+
+[[part]]
+cl_file = "artefact.apt"
+nominal = "artefact.toml"
+points = "artefact.csv"
+
+# Pivot and tool length act as a sum: the presetter's word.
+[[known]]
+name = "tool_length_mm"
+value = 0.0
+uncertainty = 0.002
+
+# A ball hides how the tool leans: an indicator's word, the spindle trammed.
+[[known]]
+name = "zero_{}_deg"
+value = 0.0
+uncertainty = 0.0005
+)",
+                       machine, last_rotary);
+}
+
 ExitCode runPlan(const Flags& flags) {
+    const std::string machine = flags.job.empty() ? "fooke-endura-ca" : flags.job;
+    const auto last_rotary = lastRotaryOf(machine);
+    if (!last_rotary) return failWith(last_rotary.error());
     loop::ArtefactOptions options;
     options.ball_diameter_mm = flags.ball_mm;
     options.largest_tilt_rad = base::radFromDeg(flags.tilt_deg);
@@ -174,17 +216,10 @@ ExitCode runPlan(const Flags& flags) {
     if (!artefact) return failWith(artefact.error());
     const auto cl = toolpath::clText(artefact->path);
     if (!cl) return failWith(cl.error());
-    const std::string job =
-        "schema = 1\nmachine = \"" + (flags.job.empty() ? "fooke-endura-ca" : flags.job) +
-        "\"\n# As the control has them when the artefact is cut.\ntool_length_mm = 100.0\n"
-        "wcs_origin_mm = [0.0, 0.0, 0.0]\n\n[[part]]\ncl_file = \"artefact.apt\"\nnominal = "
-        "\"artefact.toml\"\npoints = \"artefact.csv\"\n\n# Pivot and tool length act as a sum: the "
-        "presetter's word.\n[[known]]\nname = \"tool_length_mm\"\nvalue = 0.0\nuncertainty = 0.002\n\n# A ball hides how the tool leans: an indicator's word, the spindle trammed.\n"
-        "[[known]]\nname = \"zero_A_deg\"\nvalue = 0.0\nuncertainty = 0.0005\n";
     const auto done = writeFolder(flags.output, {{"artefact.apt", *cl},
                                                  {"artefact.toml", artefact->surface_toml},
                                                  {"targets.csv", loop::planTable(artefact->plan)},
-                                                 {"job.toml", job}});
+                                                 {"job.toml", planJob(machine, *last_rotary)}});
     if (!done) return failWith(done.error());
     if (flags.json) {
         base::Json out = base::jsonReport("calibrate", 1);

@@ -124,6 +124,25 @@ TEST_F(LoopCommands, CalibrateSaysWhatIsWrongWithAJob) {
     EXPECT_EQ(left(), std::vector<std::string>{"job.toml"});
 }
 
+TEST_F(LoopCommands, AnArtefactIsPlannedForTheAxesOfItsMachine) {
+    for (const std::string machine : {"nutating-45", "haas-umc-bc"}) {
+        const std::string out = path(machine);
+        ASSERT_EQ(run({"calibrate", "--plan", machine, "-o", out}).exit_code, 0);
+        ASSERT_EQ(run({"measure", out + "/artefact.apt", "--nominal", out + "/artefact.toml", "-m", machine,
+                       "--tool-length-mm", "100", "--points", out + "/targets.csv", "-o", out + "/artefact.csv"})
+                      .exit_code,
+                  0);
+        const auto outcome = run({"calibrate", out + "/job.toml", "-o", out + "/found", "--json"});
+        ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 1) << outcome.errors;
+        EXPECT_LT(nlohmann::json::parse(outcome.output)["rms_mm"].get<double>(), 0.001) << "a machine without errors fits its own part";
+    }
+    const auto flat = run({"calibrate", "--plan", "three-axis", "-o", path("flat")});
+    EXPECT_EQ(flat.exit_code, 3);
+    EXPECT_NE(flat.errors.find("two rotary axes"), std::string::npos) << flat.errors;
+    EXPECT_FALSE(std::filesystem::exists(path("flat")));
+    EXPECT_EQ(run({"calibrate", "--plan", "no-such-machine", "-o", path("flat")}).exit_code, 3);
+}
+
 TEST_F(LoopCommands, DemoRefusesWhatItCannotUse) {
     EXPECT_EQ(run({"demo"}).exit_code, 2);
     EXPECT_EQ(run({"demo", "-o", path("d"), "-m", "no-such-machine"}).exit_code, 3);
