@@ -134,7 +134,8 @@ TEST_F(LoopCommands, AnArtefactIsPlannedForTheAxesOfItsMachine) {
                   0);
         const auto outcome = run({"calibrate", out + "/job.toml", "-o", out + "/found", "--json"});
         ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 1) << outcome.errors;
-        EXPECT_LT(nlohmann::json::parse(outcome.output)["rms_mm"].get<double>(), 0.001) << "a machine without errors fits its own part";
+        EXPECT_LT(nlohmann::json::parse(outcome.output)["rms_mm"].get<double>(), 0.001)
+            << "a machine without errors fits its own part";
     }
     const auto flat = run({"calibrate", "--plan", "three-axis", "-o", path("flat")});
     EXPECT_EQ(flat.exit_code, 3);
